@@ -4,8 +4,11 @@
 import pytest
 
 from bubblesim.scripting.api.functions import MODULES, functions
+from bubblesim.scripting.api.ik import ik_module  # noqa: F401  # registers modules
 from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # registers modules
-from bubblesim.scripting.api.sim import sim_module  # noqa: F401  # registers modules
+from bubblesim.scripting.api.sim import remote_api_module, sim_module  # noqa: F401  # registers modules
+from bubblesim.scripting.api.ui import ui_module  # noqa: F401  # registers modules
+from bubblesim.scripting.api.vision import vision_module  # noqa: F401  # registers modules
 from cli_support import bubblesim
 
 

@@ -198,7 +198,7 @@ def test_a_created_shape_is_static_and_not_respondable_at_first(sim: Any) -> Non
 
 
 def test_a_shape_that_is_not_respondable_falls_through_the_floor(sim: Any) -> None:
-    ball = sim.createPureShape(sim.pure_primitive_spheroid, 0, [0.1, 0.1, 0.1], 2.0)
+    ball = sim.createPureShape(1, 0, [0.1, 0.1, 0.1], 2.0)
     sim.setObjectPosition(ball, [0, 2, 0.5])
     run(sim, 1.0)
     assert sim.getObjectPosition(ball)[2] < -1
@@ -218,7 +218,9 @@ def test_all_kinds_of_shapes_are_created(sim: Any, kind: int, sizes: list[float]
 
 
 def test_shapes_without_sense_are_refused(sim: Any) -> None:
-    assert "not a supported primitive shape" in refusal(sim.createPrimitiveShape, sim.primitiveshape_cone, [1, 1, 1])
+    assert "not a supported primitive shape" in refusal(
+        sim.createPrimitiveShape, sim.primitiveshape_heightfield, [1, 1, 1]
+    )
     assert "three lengths" in refusal(sim.createPrimitiveShape, sim.primitiveshape_cuboid, [1, 1, 0])
     assert "equal sizes along x and y" in refusal(sim.createPrimitiveShape, sim.primitiveshape_cylinder, [1, 2, 1])
     box = sim.getObject("/box")

@@ -13,9 +13,12 @@ from hypothesis import strategies as st
 from bubblesim.scripting.api import kinds
 from bubblesim.scripting.api.checked_calls import ArgumentError, checked_on_failure, value_first
 from bubblesim.scripting.api.functions import MODULES, functions, script_module
+from bubblesim.scripting.api.ik.ik_module import SimIk
 from bubblesim.scripting.api.reference import page
 from bubblesim.scripting.api.ros.ros_modules import SimRos, SimRos2
 from bubblesim.scripting.api.sim.sim_module import SimApi
+from bubblesim.scripting.api.ui.ui_module import SimUi
+from bubblesim.scripting.api.vision.vision_module import SimVision
 from node_support import run_script, run_sim, write
 from ros_support import REPOSITORY, free_port, ros_environment
 
@@ -117,7 +120,7 @@ def test_arguments_may_be_named() -> None:
     assert Sample().text(count=3, value="ab") == "ababab"
 
 
-MODULES = {"sim": SimApi, "simROS": SimRos, "simROS2": SimRos2}
+MODULES = {"sim": SimApi, "simUI": SimUi, "simIK": SimIk, "simVision": SimVision, "simROS": SimRos, "simROS2": SimRos2}
 
 
 @pytest.mark.parametrize(
@@ -153,7 +156,7 @@ SWEEP = """
 
 
 def test_no_function_of_sim_falls_over_odd_arguments(tmp_path: Path) -> None:
-    run = run_script(tmp_path, SWEEP.replace("MODULES", "[sim]"), "--strict", until=0.05)
+    run = run_script(tmp_path, SWEEP.replace("MODULES", "[sim, simUI, simIK, simVision]"), "--strict", until=0.05)
     assert run.returncode == 0, run.stderr
     assert run.stdout.endswith("swept\n")
 

@@ -89,11 +89,13 @@ def test_require_gives_the_modules_whatever_version_is_asked_for(tmp_path: Path)
             assert require('sim') is sim and require('sim-2') is sim
             assert not simROS and require('simROS') is simROS
             try:
-                require('simUI')
+                require('simOMPL')
             except ImportError as error:
                 print(error)
     """
-    assert lines(tmp_path, code) == ["module 'simUI' not found; require supports sim, simROS, simROS2"]
+    assert lines(tmp_path, code) == [
+        "module 'simOMPL' not found; require supports sim, simUI, simIK, simVision, simRemoteApi, simROS, simROS2"
+    ]
 
 
 def test_header_includes_files_from_the_script_folder_and_the_script_path(tmp_path: Path) -> None:

@@ -125,7 +125,7 @@ def test_wait_takes_simulation_time_or_that_of_the_machine(tmp_path: Path) -> No
             sim.quitSimulator()
     """
     assert lines(tmp_path, code, until=1e6) == [
-        "0.15 0.03 0.30",
+        "0.15 -0.03 0.30",
         "True",
     ]
 

@@ -39,7 +39,7 @@ def sysCall_sensing():
 """
 
 
-# Resolves after what was to be drawn, or has got another size, is on the screen.
+# Resolves when all that had to be drawn, also after a change of size, is on the screen.
 DRAWN = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 300))))"
 
 

@@ -80,7 +80,7 @@ def spawner(arguments: Sequence[str]) -> int:
     parser.add_argument("--stopped", action="store_true", help="do not start them")
     parser.add_argument("--wait-for", metavar="TOPIC", help="wait until this std_msgs/Bool is true")
     parser.add_argument("--namespace", default="", help="namespace of the controller manager")
-    parser.add_argument("--timeout", type=float, default=30.0, help="s to wait for it (default 30)")
+    parser.add_argument("--timeout", type=float, default=120.0, help="s to wait for it (default 120)")
     parser.add_argument("--no-timeout", action="store_true", help="wait without a limit")
     parser.add_argument("--shutdown-timeout", type=float, help="accepted without an effect")
     options = parser.parse_args(arguments)

@@ -26,7 +26,7 @@ class PioneerGoal(Task):
 
     Observation: 24 lidar ranges over 270 degrees from the right to the left, as fractions of 4 m; distance to the goal
     as a fraction of 10 m; cosine and sine of its direction; forward velocity (m/s) and turn rate (rad/s).
-    Reward: the metres by which the goal has come nearer, -0.02 for each step, 10 at the goal, -10 for touching an
+    Reward: the metres by which the goal is nearer, -0.02 for each step, 10 at the goal, -10 for touching an
     obstacle or a wall; both end the episode. The information `success` is true at the goal.
     """
 

@@ -55,7 +55,7 @@ class Clients:
         self._runner = None
 
     def client_of(self, connection: ClientConnection, uuid: str, timeout: float | None) -> RemoteClient:
-        """Return the client of a request that has come on a connection."""
+        """Return the client of a request that has arrived on a connection."""
         client = self._clients.get(uuid)
         if client is None:
             if len(self._clients) >= _MOST:

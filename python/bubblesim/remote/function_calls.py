@@ -12,6 +12,11 @@ from bubblesim.remote.remote_client import RemoteCallback, RemoteClient
 from bubblesim.remote.remote_sim import RemoteSim
 from bubblesim.remote.window import functions as window_functions
 from bubblesim.scripting.api.functions import functions
+from bubblesim.scripting.api.ik.ik_module import SimIk
+from bubblesim.scripting.api.old_names import names_to
+from bubblesim.scripting.api.ui.ui_module import SimUi
+
+MODULES_OF_CLIENTS: dict[str, type] = {"sim": RemoteSim, "simUI": SimUi, "simIK": SimIk}
 
 
 def carry_out(request: protocol.Request, sim: RemoteSim, client: RemoteClient) -> Any:
@@ -22,38 +27,42 @@ def carry_out(request: protocol.Request, sim: RemoteSim, client: RemoteClient) -
     module, _, name = request.function.partition(".")
     if module == "zmqRemoteApi" and name in ("require", "info"):
         wanted = request.arguments[0] if request.arguments else ""
-        if wanted != "sim" and not (isinstance(wanted, str) and wanted.partition("-")[0] == "sim"):
-            raise ImportError(f"module '{wanted}' not found: remote clients have the module sim")
-        return None if name == "require" else info()
+        bare = wanted.partition("-")[0] if isinstance(wanted, str) else ""  # without a version
+        if bare not in MODULES_OF_CLIENTS:
+            raise ImportError(f"module '{wanted}' not found: remote clients have {', '.join(MODULES_OF_CLIENTS)}")
+        return None if name == "require" else info(bare)
     if request.function == "frames.open":
         return client.server.publish_frames()
     if request.function == "frames.layout":
         return layout(client)
     if module == "window":
         return window_functions.call(client.server.host, client, name, request.arguments)
-    if module != "sim" or name.startswith("_"):
-        raise AttributeError(f"there is no function '{request.function}': remote clients have those of sim")
-    function = getattr(sim, name)
+    if module not in MODULES_OF_CLIENTS or name.startswith("_"):
+        known = ", ".join(MODULES_OF_CLIENTS)
+        raise AttributeError(f"there is no function '{request.function}': remote clients have those of {known}")
+    function = getattr(sim if module == "sim" else sim.other_module(module), name)
     if not callable(function):
-        raise TypeError(f"sim.{name} is a constant, not a function")
+        raise TypeError(f"{module}.{name} is a constant, not a function")
     arguments = [_argument(client, value) for value in request.arguments]
     while arguments and arguments[-1] is None:  # a trailing nil is an omitted argument
         arguments.pop()
     return function(*arguments)
 
 
-def info() -> dict[str, dict[str, Any]]:
-    """Return the functions and constants of `sim` as clients ask for them."""
-    return {**{name: {"func": {}} for name in _function_names()}, **{name: {"const": v} for name, v in _constants()}}
+def info(module: str = "sim") -> dict[str, dict[str, Any]]:
+    """Return the functions and constants of a module as clients ask for them, also under their old names."""
+    type_of_module = MODULES_OF_CLIENTS[module]
+    names = [function.name for function in functions(type_of_module)]
+    old = names_to(module, lambda _, name: name in names)
+    return {
+        **{name: {"func": {}} for name in (*names, *old)},
+        **{name: {"const": value} for name, value in _constants(type_of_module)},
+    }
 
 
-def _function_names() -> list[str]:
-    return [function.name for function in functions(RemoteSim)]
-
-
-def _constants() -> Iterator[tuple[str, int]]:
-    for name in dir(RemoteSim):
-        value = getattr(RemoteSim, name)
+def _constants(module: type) -> Iterator[tuple[str, int]]:
+    for name in dir(module):
+        value = getattr(module, name)
         if not name.startswith("_") and isinstance(value, int):
             yield name, value
 

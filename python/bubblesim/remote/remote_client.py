@@ -113,6 +113,8 @@ class RemoteClient:
     """Of nested setStepping."""
     granted: int = 0
     """Steps that may run."""
+    stepping: int = 0
+    uses_old_names: bool = False
     waits_for_time: bool = False
     """In sim.wait, where all steps may run."""
     last_seen: float = field(default_factory=time.monotonic)

@@ -13,9 +13,12 @@ from bubblesim._core import RunState, Scene, cbor_decode
 from bubblesim.remote.later_replies import Conversation, Pending
 from bubblesim.remote.remote_client import RemoteCallback, RemoteClient
 from bubblesim.scripting.api.functions import variant_of_module
+from bubblesim.scripting.api.ik.ik_module import SimIk
 from bubblesim.scripting.api.kinds import Bytes
 from bubblesim.scripting.api.sim.scene_files import stem
 from bubblesim.scripting.api.sim.sim_module import SimApi
+from bubblesim.scripting.api.ui.ui_module import SimUi
+from bubblesim.scripting.api.waiting_functions import Waiting
 
 _TOLERANCE = 1e-6  # of a step
 _CALLS_OF_TEST = 99
@@ -28,6 +31,18 @@ class RemoteSim(SimApi):
 
     _caller: RemoteClient
     _most_unpacked = 1_000_000
+
+    def __init__(self, runner: Any, caller: RemoteClient) -> None:
+        """Bind the functions to one client."""
+        super().__init__(runner, caller)
+        self._other_modules: dict[str, Any] = {}
+
+    def other_module(self, name: str) -> Any:
+        """Return the client's simUI or simIK."""
+        made = self._other_modules
+        if name not in made:
+            made[name] = SimUi(self._caller) if name == "simUI" else SimIk(self._runner, self._caller)
+        return made[name]
 
     def setStepping(self, enable: bool) -> int:
         """Enable or disable stepping mode, in which a step waits for ``step`` of this client; calls nest."""
@@ -52,7 +67,8 @@ class RemoteSim(SimApi):
         return self.step()
 
     def wait(self, seconds: float, simulation_time: bool = True) -> Any:
-        """Wait for a number of seconds of simulated time, or of wall time; return the excess time."""
+        """Wait for a number of seconds of simulated time, or of wall time; return the time left: 0, or a
+        negative number."""
         if not simulation_time:
             return self._wait_for_wall_time(seconds)
         if not math.isfinite(seconds):
@@ -69,7 +85,41 @@ class RemoteSim(SimApi):
 
         if is_done():
             return 0.0
-        return Pending(is_done, lambda: float(max(0.0, self._simulation.state_time - end)))
+        return Pending(is_done, lambda: float(min(0.0, end - self._simulation.state_time)))
+
+    def waitForSignal(self, name: str) -> Any:
+        """Wait until a signal is set, of any type, and return it; None (nil) if the simulation stops before."""
+        signals = self._caller.shared.signals
+
+        def value() -> Any:
+            return next((found for kind in (int, float, str) if (found := signals.get((kind, name))) is not None), None)
+
+        return Pending(lambda: value() is not None or self._stopped(), value)
+
+    def _run_waiting(self, function: str, waiting: Waiting) -> Any:
+        """Let a function that takes several steps go on with each; in stepping mode it allows them itself."""
+        client = self._caller
+        server = client.server
+        result: Any = None
+        steps = -1
+
+        def is_done() -> bool:
+            nonlocal result, steps
+            if self._stopped():
+                raise RuntimeError(f"sim.{function}: the simulation is stopped, its time does not pass")
+            if server.steps == steps:
+                return False
+            steps = server.steps
+            try:
+                next(waiting)
+            except StopIteration as end:
+                result = end.value
+                return True
+            if client.level:
+                client.granted += 1
+            return False
+
+        return Pending(is_done, lambda: result)
 
     def getSimulationStopping(self) -> bool:
         """Return whether this is the last step."""

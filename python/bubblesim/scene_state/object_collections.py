@@ -40,6 +40,8 @@ class Collections:
         self.by_handle: dict[int, Collection] = {}
         self.detected: dict[int, int] = {}
         """By sensor: the object or collection that it detects; all if it has none."""
+        self.by_name: dict[str, int] = {}
+        """Those that scripts name."""
         self._created = 0
 
     def create(self, *, temporary: bool) -> int:

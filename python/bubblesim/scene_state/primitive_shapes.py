@@ -9,13 +9,14 @@ from dataclasses import dataclass
 
 _DENSITY = 1000.0  # kg/m^3
 _FLAT = 1e-4  # m, height of planes and discs
-_PLANE, _DISC, _CUBOID, _SPHEROID, _CYLINDER, _CAPSULE = 1, 2, 3, 4, 5, 7
+_PLANE, _DISC, _CUBOID, _SPHEROID, _CYLINDER, _CONE, _CAPSULE = 1, 2, 3, 4, 5, 6, 7
 _NAMES = {
     _PLANE: "Plane",
     _DISC: "Disc",
     _CUBOID: "Cuboid",
     _SPHEROID: "Sphere",
     _CYLINDER: "Cylinder",
+    _CONE: "Cone",
     _CAPSULE: "Capsule",
 }
 
@@ -39,12 +40,12 @@ class PrimitiveShape:
         if self.kind not in _NAMES:
             raise ValueError(
                 f"{self.kind} is not a supported primitive shape: use sim.primitiveshape_plane, disc, cuboid, "
-                "spheroid, cylinder or capsule"
+                "spheroid, cylinder, cone or capsule"
             )
         if len(self.sizes) != 3 or not all(0 < size < 1e4 for size in self._lengths()):
             raise ValueError(f"the sizes of a shape are three lengths in m from 0 to 10000, found {self.sizes}")
         x, y, z = self._lengths()
-        if self.kind in (_DISC, _CYLINDER, _CAPSULE) and not math.isclose(x, y):
+        if self.kind in (_DISC, _CYLINDER, _CONE, _CAPSULE) and not math.isclose(x, y):
             raise ValueError(f"a {self.name.lower()} must have equal sizes along x and y, found {x:g} and {y:g}")
         if self.kind == _CAPSULE and z < x:
             raise ValueError(f"a capsule is at least as long as thick, found {z:g} and {x:g}")
@@ -59,7 +60,8 @@ class PrimitiveShape:
     def sdf(self) -> str:
         """Return the model as SDFormat."""
         geometry = f"<geometry>{self._geometry()}</geometry>"
-        collision = f'<collision name="collision">{geometry}</collision>' if self.respondable else ""
+        apart = "" if self.respondable else "<surface><contact><collide_bitmask>0</collide_bitmask></contact></surface>"
+        collision = f'<collision name="collision">{geometry}{apart}</collision>'
         xx, yy, zz = self._inertia()
         return (
             f'<sdf version="1.9"><model name="{self.name}"><link name="link"><gravity>{str(not self.static).lower()}'
@@ -76,6 +78,8 @@ class PrimitiveShape:
             return math.pi / 6 * x * y * z
         if self.kind in (_DISC, _CYLINDER):
             return math.pi / 4 * x * y * z
+        if self.kind == _CONE:
+            return math.pi / 12 * x * y * z
         if self.kind == _CAPSULE:
             return math.pi / 4 * x * x * (z - x) + math.pi / 6 * x**3
         return x * y * z
@@ -87,6 +91,9 @@ class PrimitiveShape:
             a, b, c = (self.mass / 20 * size * size for size in (x, y, z))
         elif self.kind in (_PLANE, _CUBOID):
             a, b, c = (self.mass / 12 * size * size for size in (x, y, z))
+        elif self.kind == _CONE:  # of the length z, about its centre of mass, which is taken for that of the shape
+            a = b = self.mass * 3 / 80 * x * x
+            c = self.mass * 3 / 80 * z * z
         else:
             a = b = self.mass / 16 * x * x
             c = self.mass / 12 * z * z
@@ -100,6 +107,8 @@ class PrimitiveShape:
             return f"<ellipsoid><radii>{x / 2!r} {y / 2!r} {z / 2!r}</radii></ellipsoid>"
         if self.kind in (_DISC, _CYLINDER):
             return f"<cylinder><radius>{x / 2!r}</radius><length>{z!r}</length></cylinder>"
+        if self.kind == _CONE:
+            return f"<cone><radius>{x / 2!r}</radius><length>{z!r}</length></cone>"
         if self.kind == _CAPSULE:
             return f"<capsule><radius>{x / 2!r}</radius><length>{z - x!r}</length></capsule>"
         return f"<box><size>{x!r} {y!r} {z!r}</size></box>"

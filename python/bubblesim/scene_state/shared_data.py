@@ -11,8 +11,10 @@ from bubblesim.scene_state.dummies import Dummies
 from bubblesim.scene_state.graphs import Graphs
 from bubblesim.scene_state.log import Log
 from bubblesim.scene_state.object_collections import Collections
+from bubblesim.scene_state.panels import Panels
 from bubblesim.scene_state.scene_edits import SceneEdits
 from bubblesim.scene_state.stored_values import StoredValues
+from bubblesim.scene_state.tubes import Tubes
 
 
 class Scripts(Protocol):
@@ -56,6 +58,16 @@ class SharedData:
     log: Log = field(default_factory=Log)
     collections: Collections = field(default_factory=Collections)
     edits: SceneEdits = field(default_factory=SceneEdits)
+    panels: Panels = field(default_factory=Panels)
+    tubes: Tubes = field(default_factory=Tubes)
+    selected: list[int] = field(default_factory=list)
+    """Handles of the objects that scripts have selected."""
+    vision_results: dict[int, tuple[bool, list[Any]]] = field(default_factory=dict)
+    """By camera: whether its script's sysCall_vision has reported a trigger, and its packets of packed floats."""
+    floating_views: int = 0
+    """Number of views that scripts have opened."""
+    script_parameters: StoredValues[tuple[int, str]] = field(default_factory=lambda: StoredValues("script parameters"))
+    """Strings that were set, by object and name; stay after a stop."""
     custom_data: StoredValues[tuple[int, str]] = field(default_factory=lambda: StoredValues("custom data"))
     """By object, -12 for the scene, and name; stays after a stop."""
     settings: StoredValues[tuple[type, int | str]] = field(default_factory=lambda: StoredValues("parameters"))
@@ -73,3 +85,4 @@ class SharedData:
         self.collections.end_run()
         self.edits.end_run(world)
         self.cleared_scans.clear()
+        self.vision_results.clear()

@@ -24,6 +24,10 @@ class Caller(Protocol):
     """Functions that release the caller's resources, by resource; run when the caller ends."""
     in_each_step: dict[Hashable, Hook]
     """Run in each simulation step; must not raise."""
+    stepping: int
+    """Depth of nested setStepping calls outside of a thread."""
+    uses_old_names: bool
+    """It was logged that the caller uses names of older versions."""
     programs: list[Any]
     """Programs that the caller started; they end with it."""
 

@@ -172,6 +172,29 @@ void bind_world(py::module_& module) {
       .def(
           "set_alias", [](World& w, ObjectId id, const std::string& alias) { w.frames().set_alias(id, alias); },
           py::arg("object"), py::arg("alias"))
+      .def(
+          "nearest",
+          [](const World& w, const std::vector<ObjectId>& first, const std::vector<ObjectId>& second,
+             double limit) -> py::object {
+            const std::optional<NearestPoints> found = w.geometry().nearest(first, second, limit);
+            if (!found) return py::none();
+            return py::make_tuple(found->distance, to_list(found->on_first), to_list(found->on_second), found->first,
+                                  found->second);
+          },
+          py::arg("first"), py::arg("second"), py::arg("limit"),
+          "Return distance, the nearest points in the world and their links, for the shapes of two lists of links; "
+          "None "
+          "if they are farther apart than the limit, or have no shapes.")
+      .def(
+          "bounds",
+          [](const World& w, const std::vector<ObjectId>& links, const Pose7& frame) -> py::object {
+            const auto found = w.geometry().bounds(links, to_pose(frame));
+            if (!found) return py::none();
+            return py::make_tuple(to_list(found->first), to_list(found->second));
+          },
+          py::arg("links"), py::arg("frame"),
+          "Return the corners of the smallest box, along the axes of a pose, with all shapes of some links; None if "
+          "they have none, or a plane.")
       .def("model_of", [](const World& w, ObjectId id) { return w.tree().model_of(id); })
       .def("outermost_model_of", [](const World& w, ObjectId id) { return w.tree().outermost_model_of(id); })
       .def(

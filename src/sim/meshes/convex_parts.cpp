@@ -19,8 +19,8 @@ constexpr double kEnough = 0.01;         // excess at which no piece is cut any 
 constexpr double kMerge = 0.002;         // of the mesh's volume, that joining two pieces may add
 constexpr double kClosed = 0.01;         // relative difference of the volumes that the three axes give
 constexpr double kThinnest = 1e-3;       // of the mesh's size along an axis: no slices below it
-constexpr double kLongest = 0.01;        // of a piece's volume: prefers cuts across its longest side likewise
-constexpr double kBalance = 0.01;        // of a piece's volume: prefers cuts through its middle to equally good ones
+constexpr double kLongest = 0.01;        // of a piece's volume: cuts across its longest side are preferred by this much
+constexpr double kBalance = 0.01;        // of a piece's volume: cuts through its middle are preferred by this much
 constexpr std::size_t kMostPlanes = 12;  // tried along each axis
 constexpr std::size_t kWork = 30'000;    // corners times planes, for each piece and axis
 

@@ -6,6 +6,7 @@
 //   show(), hide() called when its tab is selected, and when another one is (both optional)
 import { cameras } from "./cameras.js";
 import { output } from "./console.js";
+import { dialogs } from "./dialogs.js";
 import { driving } from "./driving.js";
 import { models } from "./models.js";
 import { plots } from "./plots.js";
@@ -15,4 +16,4 @@ import { record } from "./record.js";
 import { scripts } from "./scripts.js";
 import { tree } from "./tree.js";
 
-export const panels = [tree, models, properties, driving, record, output, scripts, plots, cameras, problems];
+export const panels = [tree, models, properties, dialogs, driving, record, output, scripts, plots, cameras, problems];

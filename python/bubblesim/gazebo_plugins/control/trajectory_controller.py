@@ -141,7 +141,7 @@ class JointTrajectory(Controller):
         except ValueError as error:
             self.warn(f"a goal is rejected: {error}")
             return REJECT
-        self._end_goal("be canceled", _SUCCESSFUL, "a new goal has come")
+        self._end_goal("be canceled", _SUCCESSFUL, "a new goal has arrived")
         self._goal = goal_id
         return ACCEPT
 

@@ -17,6 +17,8 @@ from typing import Any, TypeVar, cast
 from bubblesim.scripting.api.checked_calls import checked, kind_of, signature_of
 from bubblesim.scripting.api.kinds import Kind
 from bubblesim.scripting.api.missing_names import explain
+from bubblesim.scripting.api.old_names import note_old_name, present_name
+from bubblesim.scripting.caller import Caller
 
 Module = TypeVar("Module", bound=type)
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -33,6 +35,7 @@ class ScriptFunction:
     doc: str
     group: type  # the class that defines the function; its group in the reference
     for_remote_only: bool  # the other callers get an error
+    waits: bool = False  # it takes several steps
 
 
 def script_module(name: str) -> Callable[[Module], Module]:
@@ -41,7 +44,7 @@ def script_module(name: str) -> Callable[[Module], Module]:
     def register(module: Module) -> Module:
         for function_name, function in _public_methods(module):
             setattr(module, function_name, checked(f"{name}.{function_name}", function))
-        setattr(module, "__getattr__", _no_such(name, module))  # noqa: B010  # or mypy would take any name of it
+        setattr(module, "__getattr__", _other_names(name, module))  # noqa: B010  # or mypy would take any name of it
         MODULES[name] = module
         return module
 
@@ -79,8 +82,15 @@ def functions(module: type) -> list[ScriptFunction]:
     for name, function in _public_methods(module):
         group = next(base for base in reversed(module.__mro__) if name in vars(base))
         doc = inspect.getdoc(function) or ""
-        found.append(ScriptFunction(name, signature_of(function), doc, group, hasattr(function, "for_remote_only")))
+        marks = hasattr(function, "for_remote_only"), hasattr(function, "waits")
+        found.append(ScriptFunction(name, signature_of(function), doc, group, *marks))
     return found
+
+
+def caller_of(module: Any) -> Caller:
+    """Return who calls the functions of an instance of a module."""
+    caller: Caller = module._caller
+    return caller
 
 
 def kinds_of(module: type, function: str) -> dict[str, Kind | None]:
@@ -89,13 +99,17 @@ def kinds_of(module: type, function: str) -> dict[str, Kind | None]:
     return {name: kind_of(hint) for name, hint in hints.items() if name != "return"}
 
 
-def _no_such(name: str, module: type) -> Callable[[object, str], Any]:
-    """Return a __getattr__ that reports unknown names of a module."""
+def _other_names(name: str, module: type) -> Callable[[object, str], Any]:
+    """Return a __getattr__ that resolves old names of a module, and reports unknown ones."""
 
-    def refuse(self: object, wanted: str) -> Any:
-        raise AttributeError(explain(name, wanted, {name: module, **MODULES}))
+    def resolve(self: Any, wanted: str) -> Any:
+        present = present_name(name, wanted)
+        if present is None or not hasattr(module, present):
+            raise AttributeError(explain(name, wanted, {name: module, **MODULES}))
+        note_old_name(self._caller, f"{name}.{wanted}", f"{name}.{present}")
+        return getattr(self, present)
 
-    return refuse
+    return resolve
 
 
 def _public_methods(module: type) -> list[tuple[str, Callable[..., Any]]]:

@@ -49,6 +49,14 @@ def _string_or_bytes(value: Any) -> str | bytes:
     return value if isinstance(value, str) else bytes(memoryview(value))
 
 
+def _string_or_nothing(value: Any) -> str | None:
+    return None if value is None else _string(value)
+
+
+def _data_or_nothing(value: Any) -> str | bytes | None:
+    return None if value is None else _string_or_bytes(value)
+
+
 def _flag(value: Any) -> bool:
     return value if isinstance(value, bool) else operator.index(value) != 0
 
@@ -125,6 +133,8 @@ NumbersOrNothing = Annotated[list[float] | None, Kind("a list of numbers or noth
 Integers = Annotated[list[int], Kind("a list of integers", _integers)]
 Bytes = Annotated[bytes, Kind("bytes", _bytes)]
 TextOrBytes = Annotated[str | bytes, Kind("a string or bytes", _string_or_bytes)]
+DataOrNothing = Annotated[str | bytes | None, Kind("a string, bytes or nothing", _data_or_nothing)]
+StringOrNothing = Annotated[str | None, Kind("a string or nothing", _string_or_nothing)]
 Options = Annotated[Mapping[str, Any], Kind("a table of options by name", _options)]
 
 NO_OPTIONS: Mapping[str, Any] = MappingProxyType({})

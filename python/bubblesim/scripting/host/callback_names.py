@@ -15,12 +15,13 @@ HOOKS = (
     "sysCall_sensing",
     "sysCall_reset",
     "sysCall_cleanup",
+    "sysCall_vision",
     *PAUSE_HOOKS,
 )
 
 _PREFIX = "sysCall_"
 # CoppeliaSim's callbacks for other kinds of scripts and for unsupported events, with the callback to use instead.
-_IN_PLACE_OF = {
+IN_PLACE_OF = {
     "sysCall_afterSimulation": "sysCall_cleanup",
     "sysCall_beforeSimulation": "sysCall_init",
     "sysCall_contact": "sysCall_sensing",
@@ -30,7 +31,6 @@ _IN_PLACE_OF = {
     "sysCall_joint": "sysCall_actuation",
     "sysCall_jointCallback": "sysCall_actuation",
     "sysCall_trigger": "sysCall_sensing",
-    "sysCall_vision": "sysCall_sensing",
 }
 
 
@@ -41,8 +41,8 @@ def looks_like_callback(name: str) -> bool:
 
 def never_called(name: str) -> str:
     """Return the warning about a function that is named like a callback but is not one."""
-    if name in _IN_PLACE_OF:
-        return f"{name} is never called; use {_IN_PLACE_OF[name]} instead"
+    if name in IN_PLACE_OF:
+        return f"{name} is never called; use {IN_PLACE_OF[name]} instead"
     bare = [hook.removeprefix(_PREFIX) for hook in HOOKS]
     near = difflib.get_close_matches(name.removeprefix(_PREFIX), bare, n=1)
     hint = did_you_mean([_PREFIX + each for each in near]) or f"; the callbacks are {', '.join(HOOKS)}"

@@ -17,7 +17,7 @@ from bubblesim.scene_state.problems import Problem
 from bubblesim.scripting.allowed_programs import is_allowed
 from bubblesim.scripting.caller import Hook
 from bubblesim.scripting.host import interruption, process_calls
-from bubblesim.scripting.host.callback_names import HOOKS, PAUSE_HOOKS, looks_like_callback, never_called
+from bubblesim.scripting.host.callback_names import HOOKS, IN_PLACE_OF, PAUSE_HOOKS, looks_like_callback, never_called
 from bubblesim.scripting.host.file_stamps import FileStamps
 from bubblesim.scripting.host.protocols import Host
 from bubblesim.scripting.host.started_programs import Program, end_programs
@@ -27,6 +27,12 @@ from bubblesim.scripting.language.script_output import Source
 from bubblesim.scripting.language.source import ScriptSourceError, read_text
 from bubblesim.scripting.threads import script_sockets
 from bubblesim.scripting.threads.script_thread import AnyThread
+
+
+def sensor_kind_of(simulation: Any, handle: int) -> str:
+    """Return the kind of a sensor; an empty string for another object."""
+    is_sensor = str(simulation.world.kind(handle)) == "sensor"
+    return str(_core.sensor_kind(simulation, handle)) if is_sensor else ""
 
 
 class ChildScript:
@@ -47,6 +53,8 @@ class ChildScript:
         self.activity = "loading"  # the callback or action that runs
         self.stuck_at = ""  # FILE:LINE where the watchdog found it
         self.shared = host.shared
+        self.stepping = 0  # for the thread that starts after sysCall_init
+        self.uses_old_names = False
         self.programs: list[Program] = []  # started by the script
         self.at_end: dict[Hashable, Hook] = {}  # release the script's other resources, such as publishers
         self.in_each_step: dict[Hashable, Hook] = {}  # updates of such resources; must not raise
@@ -54,7 +62,7 @@ class ChildScript:
         self._thread: AnyThread | None = None
         self._sockets = script_sockets.Sockets()
         self._module_name = f"child_script_{object_path.strip('/').replace('/', '_')}"
-        self._hooks: dict[str, Hook | None] = dict.fromkeys(HOOKS)
+        self._hooks: dict[str, Callable[..., Any] | None] = dict.fromkeys(HOOKS)
         try:
             self._load()
         except BaseException:  # not the script's: nothing else would end it
@@ -80,14 +88,20 @@ class ChildScript:
         if not self.run("loading", self._code.run):
             return
         self._hooks = {name: self._code.function(name) for name in HOOKS}
+        self._hooks["sysCall_thread"] = self._hooks["sysCall_thread"] or self._code.function("sysCall_threadmain")
         self.follows_pauses = any(self._hooks[name] is not None for name in PAUSE_HOOKS)
         self._warn_of_unknown_callbacks()
-        if self._hooks["sysCall_init"] is None and self._hooks["sysCall_thread"] is None:
+        known = ("sysCall_init", "sysCall_thread", "sysCall_vision")
+        if not any(self._hooks[name] for name in known) and not self._has_events():
             why = "it defines neither sysCall_init nor sysCall_thread; a script needs one of these functions"
             self._fail(
                 f"error: child script of {self.object_path} is disabled: {self.file}: {why}",
                 self._problem("error", why),
             )
+
+    def _has_events(self) -> bool:
+        """Return whether the script has callbacks for events that are never reported here, such as sysCall_trigger."""
+        return any(name in IN_PLACE_OF for name in self._code.functions_by_name())
 
     def _read(self, file: Path) -> str:
         self._stamps.note(file)
@@ -95,7 +109,7 @@ class ChildScript:
 
     def _warn_of_unknown_callbacks(self) -> None:
         for name, place in sorted(self._code.functions_by_name().items()):
-            if looks_like_callback(name) and name not in HOOKS:
+            if looks_like_callback(name) and name not in (*HOOKS, "sysCall_threadmain"):
                 self._log(
                     f"warning: child script of {self.object_path}: {place or self.file}: {never_called(name)}",
                     log.SCRIPT_WARNING,
@@ -136,6 +150,7 @@ class ChildScript:
         if body is not None and self.alive:
             name = f"{self.object_path} sysCall_thread"
             self._thread = self._code.make_thread(name, body, lambda: script_sockets.record_in(self._sockets))
+            self._thread.stepping = self.stepping
 
     def _end_thread(self) -> None:
         thread, self._thread = self._thread, None
@@ -143,8 +158,34 @@ class ChildScript:
             self._log(f"warning: the thread of the child script of {self.object_path} does not end", log.SCRIPT_WARNING)
 
     def sense(self) -> None:
-        """Run sysCall_sensing."""
+        """Run sysCall_vision of a camera's script, and sysCall_sensing."""
+        if self._hooks["sysCall_vision"] is not None and self.alive and not interruption.requested:
+            self._process_image()
         self._call("sysCall_sensing")
+
+    def _process_image(self) -> None:
+        """Let the script process the image of its camera; keep what readVisionSensor returns."""
+        simulation, handle, process = self.host.simulation, self.object_handle, self._hooks["sysCall_vision"]
+        if process is None or sensor_kind_of(simulation, handle) != "camera":
+            return
+        image = _core.read_camera(simulation, handle)
+        columns, rows, angle = _core.camera_optics(simulation, handle)
+        about = {
+            "handle": handle,
+            "resolution": [columns, rows],
+            "clippingPlanes": [image.near, image.far],
+            "viewAngle": angle,
+            "orthoSize": 0.0,
+            "perspectiveOperation": True,
+        }
+        results: list[Any] = []
+        self.run("sysCall_vision", lambda: results.append(process(about)))
+        if results and isinstance(results[0], dict):
+            packets = results[0].get("packedPackets")
+            self.shared.vision_results[handle] = (
+                bool(results[0].get("trigger")),
+                list(packets) if isinstance(packets, list | tuple) else [],
+            )
 
     def call_hook(self, hook: str) -> None:
         """Run one of PAUSE_HOOKS or sysCall_reset."""

@@ -18,9 +18,13 @@ from bubblesim.program.output import write_line
 from bubblesim.scene_state.log import Log
 from bubblesim.scene_state.problems import Problem
 from bubblesim.scene_state.shared_data import SharedData
+from bubblesim.scripting.api.ik.ik_module import SimIk
 from bubblesim.scripting.api.ros.no_ros import NoRos
 from bubblesim.scripting.api.ros.ros_modules import SimRos, SimRos2
+from bubblesim.scripting.api.sim.remote_api_module import SimRemoteApi
 from bubblesim.scripting.api.sim.sim_module import SimApi
+from bubblesim.scripting.api.ui.ui_module import SimUi
+from bubblesim.scripting.api.vision.vision_module import SimVision
 from bubblesim.scripting.caller import Caller
 from bubblesim.scripting.host import interruption, process_calls
 from bubblesim.scripting.host.child_script import ChildScript
@@ -204,11 +208,17 @@ class ScriptHost:
 
     def make_modules(self, script: Caller) -> dict[str, Any]:
         """Return the modules in a script's globals."""
-        sim = SimApi(self.runner, script)
+        modules: dict[str, Any] = {
+            "sim": SimApi(self.runner, script),
+            "simUI": SimUi(script),
+            "simIK": SimIk(self.runner, script),
+            "simVision": SimVision(self.runner, script),
+            "simRemoteApi": SimRemoteApi(script),
+        }
         if self.bridge is None:
-            return {"sim": sim, "simROS": NoRos("simROS"), "simROS2": NoRos("simROS2")}
+            return {**modules, "simROS": NoRos("simROS"), "simROS2": NoRos("simROS2")}
         return {
-            "sim": sim,
+            **modules,
             "simROS": SimRos(bridge_of(self.bridge, RosVersion.ROS1), self.simulation, script),
             "simROS2": SimRos2(bridge_of(self.bridge, RosVersion.ROS2), self.simulation, script),
         }

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import itertools
+import os
 import re
 import threading
 from collections.abc import Callable
@@ -12,9 +13,12 @@ from typing import Any
 
 from lupa import lua54
 
-from bubblesim.scripting.api.functions import MODULES, functions
+from bubblesim.scripting.api.functions import MODULES, caller_of, functions
 from bubblesim.scripting.api.missing_names import explain
+from bubblesim.scripting.api.old_names import note_old_name, of_v_rep, present_name
 from bubblesim.scripting.api.ros import no_ros
+from bubblesim.scripting.api.sim.constants import SimConstants
+from bubblesim.scripting.api.waiting_functions import Waiting
 from bubblesim.scripting.language.lua_values import LuaFunction, LuaScriptError, LuaValues
 from bubblesim.scripting.language.script_output import Source, print_line
 from bubblesim.scripting.language.source import ScriptSourceError, find_file
@@ -22,6 +26,13 @@ from bubblesim.scripting.threads.lua_thread import LuaThread
 
 _SANDBOX = Path(__file__).with_name("sandbox.lua")
 _SHOWN_VALUES = Path(__file__).with_name("shown_values.lua")
+_LIBRARIES = Path(__file__).with_name("libraries.lua")
+_ADDED = {"matrix": Path(__file__).with_name("matrix.lua"), "utils": Path(__file__).with_name("utils.lua")}
+_VARIABLES = ("HOME", "LANG", "LANGUAGE", "PWD", "ROS_DISTRO", "TMPDIR", "TZ", "USER")
+_MOST_BYTES = 64 << 20  # of a file that a script reads
+_CALL_TYPE = re.compile(r"\bsim_call_type\b")
+_CALLBACK = re.compile(r"\bsysCall_\w+")
+_OF_V_REP = re.compile(r"\bsim[A-Z]\w*\s*\(")
 _PLACE_TIMEOUT = 0.3
 _MAX_MEMORY = 1 << 30  # bytes; above, a script fails with "not enough memory"
 _MAX_NAME_LENGTH = 50  # of a chunk: Lua truncates names above 59 characters
@@ -51,7 +62,11 @@ class LuaCode:
         :raises ScriptSourceError: if it cannot be read or compiled.
         """
         self._read = read
+        self._text = text
         self._folders = [file.parent, *search_paths]
+        self._modules = modules
+        self._waiting: dict[int, Waiting] = {}  # functions that take several steps, by number
+        self._begun = 0
         self._thread: LuaThread | None = None
         self._files: dict[str, Path] = {}  # by chunk name
         self._source = source
@@ -75,8 +90,13 @@ class LuaCode:
             raise ScriptSourceError(self._with_whole_paths(problem.decode(errors="backslashreplace")))
 
     def run(self) -> None:
-        """Run the body of the script."""
-        self._values.run(self._body)
+        """Run the body of the script; that of a script of V-REP 3 becomes its callbacks."""
+        has_call_type = bool(_CALL_TYPE.search(self._text))
+        is_old_thread = not has_call_type and not _CALLBACK.search(self._text) and bool(_OF_V_REP.search(self._text))
+        if (has_call_type and not _CALLBACK.search(self._text)) or is_old_thread:
+            self._sandbox[b"make_callbacks"](self._body, is_old_thread)
+        else:
+            self._values.run(self._body)
 
     def function(self, name: str) -> Callable[..., Any] | None:
         """Return a global function of the script."""
@@ -140,7 +160,21 @@ class LuaCode:
         host[b"absent"] = to_lua({name: no_ros.reason(name) for name, module in modules.items() if not module})
         host[b"write"] = callable_from_lua(self._write)
         host[b"find_source"] = callable_from_lua(self._find_source)
-        host[b"explain"] = callable_from_lua(lambda module, name: explain(module, name, MODULES))
+        host[b"explain"] = callable_from_lua(_explanation)
+        modules["sim"].run_waiting = self._begin_waiting
+        host[b"waiting"] = self._values.to_lua([f.name for f in functions(type(modules["sim"])) if f.waits])
+        host[b"go_on"] = callable_from_lua(self._go_on)
+        host[b"old_name"] = callable_from_lua(self._old_name)
+        host[b"v_rep_name"] = callable_from_lua(self._v_rep_name)
+        host[b"read_file"] = callable_from_lua(self._read_file)
+        host[b"getenv"] = callable_from_lua(lambda name: os.environ.get(name) if name in _VARIABLES else None)
+        host[b"libraries"] = self._runtime.execute(b"return function(...) " + _LIBRARIES.read_bytes() + b"\nend")
+        host[b"added"] = self._runtime.table_from(
+            {
+                name.encode(): self._runtime.execute(b"return function(...) " + path.read_bytes() + b"\nend")
+                for name, path in _ADDED.items()
+            }
+        )
         host[b"whole"] = callable_from_lua(lambda text: self._with_whole_paths(_decoded(text)))
         host[b"shown"] = self._runtime.execute(_SHOWN_VALUES.read_bytes(), name=b"=[sandbox]")
         host[b"is_interruption"] = lambda problem: isinstance(problem, KeyboardInterrupt)
@@ -151,6 +185,57 @@ class LuaCode:
 
     def _write(self, line: str | bytes) -> None:
         print_line(self._source, _decoded(line))
+
+    def _begin_waiting(self, waiting: Waiting) -> int:
+        """Keep a function that takes several steps; a coroutine lets it go on."""
+        self._begun += 1
+        self._waiting[self._begun] = waiting
+        return self._begun
+
+    def _go_on(self, number: int) -> tuple[Any, ...]:
+        """Carry out a step of such a function; return whether it is done, and then its results."""
+        try:
+            next(self._waiting[number])
+        except StopIteration as end:
+            del self._waiting[number]
+            return (True, *end.value) if isinstance(end.value, tuple) else (True, end.value)
+        return (False,)
+
+    def _old_name(self, module: str, name: str) -> str | None:
+        """Return the present name of a function of a module, and log it once."""
+        present = present_name(module, name)
+        if present is None or not _exists(module, present):
+            return None
+        note_old_name(caller_of(self._modules["sim"]), f"{module}.{name}", f"{module}.{present}")
+        return present
+
+    def _v_rep_name(self, name: str) -> tuple[str, str] | None:
+        """Return module and name of a global function or constant of V-REP 3, and log it once."""
+        found = of_v_rep(name, lambda module, present: module in self._modules and _exists(module, present))
+        if found is not None:
+            note_old_name(caller_of(self._modules["sim"]), name, ".".join(found))
+        return found
+
+    def _read_file(self, name: str | bytes) -> Any:
+        """Return the bytes of a file beside the scene or the script; nothing and the reason if it cannot be read.
+
+        :raises PermissionError: for a file elsewhere, or hidden.
+        """
+        scene = Path(self._modules["sim"].getStringParam(SimConstants.stringparam_scene_path))
+        folders = [folder.resolve() for folder in (*self._folders, scene) if folder != Path()]
+        given = Path(os.fsdecode(name))
+        file = next((each for folder in folders if (each := folder / given).is_file()), folders[0] / given).resolve()
+        inside = next((file.relative_to(folder) for folder in folders if file.is_relative_to(folder)), None)
+        if inside is None or any(part.startswith(".") for part in inside.parts):
+            raise PermissionError(
+                f"io.open: {file} is not beside the scene or the script: --lua-unsafe lets scripts read other files"
+            )
+        try:
+            if file.stat().st_size > _MOST_BYTES:
+                raise ValueError(f"io.open: {file} has more than {_MOST_BYTES >> 20} MiB")
+            return file.read_bytes()
+        except OSError as error:
+            return None, f"{given}: {error.strerror}"
 
     def _turn_is_over(self) -> bool:
         return self._thread is not None and self._thread.turn_is_over()
@@ -195,6 +280,17 @@ class LuaCode:
     def _with_whole_paths(self, text: str) -> str:
         names = "|".join(map(re.escape, self._files))
         return re.sub(rf"(?<![\w/.+-])({names})(?=:\d)", lambda match: str(self._files[match[1]]), text)
+
+
+def _exists(module: str, name: str) -> bool:
+    return module in MODULES and not name.startswith("_") and name in dir(MODULES[module])
+
+
+def _explanation(module: str, name: str) -> str:
+    """Return the error message for an unknown name; the module is empty for a global."""
+    if module:
+        return explain(module, name, MODULES)
+    return f"there is no function {name} here, neither under a present name; `bubblesim api` lists all functions"
 
 
 def _as_lua(text: str) -> bytes:

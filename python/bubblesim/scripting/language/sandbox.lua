@@ -9,6 +9,13 @@
 --   host.write        writes a line of output
 --   host.find_source  returns text and name of a file that the script requires
 --   host.explain      returns the error message for an unknown name of a module
+--   host.old_name     returns the present name of an old name of a module, or nil
+--   host.v_rep_name   returns module and name of a global of V-REP, or nil
+--   host.waiting      names of functions of sim that take several steps: they return a number
+--   host.go_on        carries out a step of the function with a number; returns whether it is done, and its results
+--   host.added        by name, functions that make a module from the globals
+--   host.read_file, host.getenv  see libraries.lua
+--   host.libraries    the function of libraries.lua
 --   host.whole        returns a string with the whole paths of the script's files
 --   host.shown        the function returned by shown_values.lua
 --   host.is_interruption  whether an error is Python's KeyboardInterrupt, which can be raised at any time
@@ -24,12 +31,18 @@ local error, getmetatable, load, next, pcall, rawequal, rawget, select, setmetat
   error, getmetatable, load, next, pcall, rawequal, rawget, select, setmetatable, type, xpcall
 local close, create, resume, running, status, wrap, yield = coroutine.close, coroutine.create, coroutine.resume,
   coroutine.running, coroutine.status, coroutine.wrap, coroutine.yield
-local concat, format, match, max = table.concat, string.format, string.match, math.max
+local concat, format, match, min = table.concat, string.format, string.match, math.min
+local isyieldable, clock = coroutine.isyieldable, os.clock
 local getinfo, sethook, traceback = debug.getinfo, debug.sethook, debug.traceback
 
 local SOURCE = getinfo(1, "S").source
 
 local thread  -- the coroutine of sysCall_thread
+
+-- Coroutines that the script has created and resumes itself give up their turn after a time slice, as the thread does.
+local SLICE = 0.002  -- s
+local has_coroutines, is_stepping, slice_end = false, false, 0.0
+local switched = setmetatable({}, {__mode = "k"})
 
 -- Errors -------------------------------------------------------------------------------------------------------------
 
@@ -71,7 +84,11 @@ local function results_or_error(succeeded, turn_is_over_or_problem, ...)
     if turn_is_over_or_problem == nil then interrupt() end
     fail(turn_is_over_or_problem)
   end
-  if turn_is_over_or_problem and running() == thread then yield() end
+  if turn_is_over_or_problem and running() == thread then
+    yield()
+  elseif has_coroutines and not is_stepping and switched[running()] and clock() > slice_end then
+    yield()
+  end
   return ...
 end
 
@@ -80,13 +97,14 @@ local function checked(call)
 end
 
 local write, explain, whole = checked(host.write), checked(host.explain), checked(host.whole)
+local old_name, v_rep_name = checked(host.old_name), checked(host.v_rep_name)
 
 local missing = {}  -- modules, by unknown names that a script has used
 
 -- Lua's error messages name the nil value. For modules of the simulator, replace them by more helpful ones.
 local function explained(text)
   local where, called = match(text, "^(.-:%d+: )attempt to call a nil value %(%a+ '([%w_]+)'%)")
-  if called and missing[called] then return where .. explain(missing[called], called) end
+  if called and missing[called] ~= nil then return where .. explain(missing[called], called) end
   local place, indexed = match(text, "^(.-:%d+: )attempt to index a nil value %(%a+ '([%w_]+)'%)")
   if indexed and host.absent[indexed] then return place .. host.absent[indexed] end
   return text
@@ -140,7 +158,7 @@ if not host.unsafe then
   globals = {}
   for name, value in next, _G do globals[name] = value end
   globals._G = globals
-  globals.dofile, globals.io, globals.loadfile, globals.os, globals.package = nil, nil, nil, nil, nil
+  globals.dofile, globals.loadfile = nil, nil
   getmetatable("").__metatable = false  -- shared by all strings
 end
 globals.python = nil
@@ -156,9 +174,16 @@ function globals.xpcall(body, handler, ...)
   end, ...))
 end
 
-function globals.coroutine.create(body) return create(with_pulse(body)) end
+function globals.coroutine.create(body)
+  local made = create(with_pulse(body))
+  has_coroutines, switched[made] = true, true
+  return made
+end
 function globals.coroutine.wrap(body) return wrap(with_pulse(body)) end
-function globals.coroutine.resume(...) return caught(resume(...)) end
+function globals.coroutine.resume(...)
+  slice_end = clock() + SLICE
+  return caught(resume(...))
+end
 function globals.coroutine.close(...) return caught(close(...)) end
 
 if not host.unsafe then
@@ -196,43 +221,126 @@ for name, module in next, host.modules do
   for constant, value in next, module.constants do members[constant] = value end
   for function_name, call in next, module.functions do members[function_name] = checked(call) end
   modules[name] = setmetatable(members, {
-    __index = function(_, wanted) missing[wanted] = name end,
+    __index = function(_, wanted)
+      local present = type(wanted) == "string" and old_name(name, wanted)
+      if present then
+        members[wanted] = members[present]
+        return members[present]
+      end
+      missing[wanted] = name
+    end,
     __metatable = false,
   })
   globals[name] = members
 end
 
--- Only the coroutine of sysCall_thread can yield its turn, not coroutines created by the script.
+-- Functions of V-REP 3 are globals.
+setmetatable(globals, {
+  __index = function(_, wanted)
+    if type(wanted) ~= "string" or not match(wanted, "^sim[_A-Zr]") then return nil end
+    local module, present = v_rep_name(wanted)
+    if not module then
+      missing[wanted] = ""
+      return nil
+    end
+    local value = modules[module][present]
+    globals[wanted] = value
+    return value
+  end,
+})
+
+-- The coroutine of sysCall_thread, and one that the script has created, can yield its turn; a coroutine cannot yield
+-- inside a Python function, so what waits does so here, step by step.
 local sim = modules.sim
-local function require_thread(name)
-  if running() ~= thread then
-    fail("sim." .. name .. " is only allowed in sysCall_thread: other callbacks, and coroutines, must not wait")
+local step_of_thread, time_of = sim.step, sim.getSimulationTime
+local function yield_turn(name)
+  if running() == thread then return step_of_thread() end
+  if not isyieldable() then
+    fail("sim." .. name .. " is only allowed in sysCall_thread and in coroutines: other callbacks must not wait")
   end
+  yield()
 end
-for _, name in next, {"step", "switchThread"} do
-  local yield_turn = sim[name]
-  sim[name] = function(...)
-    require_thread(name)
-    return yield_turn(...)
+local function next_step(name)
+  local now = time_of()
+  yield_turn(name)
+  while running() ~= thread and time_of() == now do yield_turn(name) end  -- resumed twice in a step
+end
+function sim.switchThread() yield_turn("switchThread") end
+function sim.step() next_step("step") end
+
+function sim.wait(seconds, of_simulation)
+  if running() ~= thread and not isyieldable() then yield_turn("wait") end
+  if type(seconds) ~= "number" then fail("sim.wait: argument 1, seconds: expected a number") end
+  local now = of_simulation == false and sim.getSystemTime or time_of
+  local tolerance = of_simulation == false and 0 or 1e-6 * sim.getSimulationTimeStep()
+  local end_of_wait = now() + seconds
+  while now() < end_of_wait - tolerance do next_step("wait") end
+  return min(0.0, end_of_wait - now())
+end
+
+function sim.waitForSignal(name)
+  while true do
+    local value = sim.getInt32Signal(name) or sim.getFloatSignal(name) or sim.getStringSignal(name)
+    if value ~= nil then return value end
+    next_step("waitForSignal")
   end
 end
 
--- A coroutine cannot yield inside a Python function, so this waits in Lua, step by step.
-function sim.wait(seconds, of_simulation)
-  require_thread("wait")
-  if type(seconds) ~= "number" then fail("sim.wait: argument 1, seconds: expected a number") end
-  local now = of_simulation == false and sim.getSystemTime or sim.getSimulationTime
-  local tolerance = of_simulation == false and 0 or 1e-6 * sim.getSimulationTimeStep()
-  local end_of_wait = now() + seconds
-  while now() < end_of_wait - tolerance do sim.step() end
-  return max(0.0, now() - end_of_wait)
+local read_tube = sim.tubeRead
+function sim.tubeRead(tube, blocking)
+  local packet = read_tube(tube)
+  while packet == nil and blocking do
+    next_step("tubeRead")
+    packet = read_tube(tube)
+  end
+  return packet
 end
+
+-- Functions that take several steps: each resumption of the coroutine carries out one.
+local go_on = checked(host.go_on)
+local function results_when_done(name, number, done, ...)
+  if done then return ... end
+  next_step(name)
+  return results_when_done(name, number, go_on(number))
+end
+for _, name in next, host.waiting do
+  local begin = sim[name]
+  sim[name] = function(...)
+    local number = begin(...)  -- checks the arguments
+    if running() ~= thread and not isyieldable() then yield_turn(name) end
+    return results_when_done(name, number, go_on(number))
+  end
+end
+
+for _, name in next, {"setStepping", "setThreadAutomaticSwitch", "acquireLock", "releaseLock"} do
+  local set, level = sim[name], sim.getStepping
+  sim[name] = function(...)
+    local before = set(...)
+    is_stepping = level() > 0
+    return before
+  end
+end
+
+local inverse = sim.invertMatrix
+function sim.invertMatrix(matrix)  -- the argument changes, as in the original
+  local inverted = inverse(matrix)
+  for i, number in next, inverted do matrix[i] = number end
+  return inverted
+end
+
+host.libraries(globals, not host.unsafe, {
+  read_file = checked(host.read_file), getenv = checked(host.getenv), write = write, shown = host.shown,
+}, fail)
 
 local find_source = checked(host.find_source)
 local required = {}
 function globals.require(name)
   local bare = type(name) == "string" and match(name, "^[^-]*")
   if modules[bare] then return modules[bare] end
+  if bare and host.added[bare] then  -- a module of the original's Lua files
+    required[bare] = required[bare] or host.added[bare](globals)
+    return required[bare]
+  end
   if host.absent[bare] then return nil end
   if required[name] == nil then
     local text, chunk_name = find_source(name)
@@ -274,6 +382,20 @@ return {
   end,
 
   global = function(name) return rawget(globals, name) end,
+
+  -- Lets a script of V-REP 3, whose whole text is called, have the callbacks of today.
+  make_callbacks = function(body, is_threaded)
+    if is_threaded then
+      globals.sysCall_thread = body
+      return
+    end
+    for call, name in next, {[0] = "sysCall_init", "sysCall_actuation", "sysCall_sensing", "sysCall_cleanup"} do
+      globals[name] = function()
+        globals.sim_call_type = call
+        return body()
+      end
+    end
+  end,
 
   -- Returns the global functions of the script by name, as short_src:line.
   functions = function()

@@ -29,11 +29,11 @@ void take_force(const FoundPair& pair, FoundContact& point) {
 
 void join_contacts(Substep& substep) {
   Contacts& contacts = substep.contacts;
-  Recollection recollection(contacts.memory);
+  ContactLookup lookup(contacts.memory);
   for (const FoundPair& pair : contacts.found.pairs) {
     const int island = contacts.islands.of(pair.first->model);
     if (!contacts.islands.is_jointed(island)) continue;
-    const RememberedPair* remembered = recollection.pair(pair);
+    const RememberedPair* remembered = lookup.pair(pair);
     FoundContact* points = &contacts.found.points[pair.begin];
     limit_friction(pair, remembered, contacts.memory, substep.duration, contacts.islands.is_beyond_limit(island),
                    points);

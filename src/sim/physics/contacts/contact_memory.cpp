@@ -64,7 +64,7 @@ void ContactMemory::add_to(Fnv1a& hash) const {
   }
 }
 
-const RememberedPair* Recollection::pair(const FoundPair& pair) {
+const RememberedPair* ContactLookup::pair(const FoundPair& pair) {
   const std::vector<RememberedPair>& pairs = memory_.pairs;
   const auto asked = numbers(pair.first, pair.second);
   while (next_ < pairs.size() && numbers(pairs[next_].first, pairs[next_].second) < asked) ++next_;
@@ -119,7 +119,7 @@ void forget_contacts(ContactMemory& memory, const std::function<bool(const Colli
 void remember_contacts(const FoundContacts& found, ContactMemory& memory, ContactMemory& before) {
   std::swap(before, memory);
   memory.clear();
-  Recollection recollection(before);
+  ContactLookup lookup(before);
   std::size_t next = 0;  // of the pairs before, those asleep are kept
   const auto keep_sleeping = [&](const std::pair<int, int>& until) {
     for (; next < before.pairs.size(); ++next) {
@@ -137,7 +137,7 @@ void remember_contacts(const FoundContacts& found, ContactMemory& memory, Contac
   for (const FoundPair& pair : found.pairs) {
     keep_sleeping(numbers(pair.first, pair.second));
     RememberedPair now{pair.first, pair.second, memory.points.size(), pair.count};
-    if (const RememberedPair* last = recollection.pair(pair)) {
+    if (const RememberedPair* last = lookup.pair(pair)) {
       now.age = std::min(last->age + 1, kSteadyAge);
       now.load_before = last->load;
     }

@@ -50,9 +50,9 @@ struct ExpectedContact {
 };
 
 /// Looks pairs up in their order; a pair that is asked for must come after the one asked for before.
-class Recollection {
+class ContactLookup {
  public:
-  explicit Recollection(const ContactMemory& memory) : memory_(memory) {}
+  explicit ContactLookup(const ContactMemory& memory) : memory_(memory) {}
 
   /// The pair of the last substep; null when it did not touch then.
   const RememberedPair* pair(const FoundPair& pair);

@@ -66,10 +66,10 @@ void IslandSolvers::solve_free_contacts(Substep& substep) {
   Contacts& contacts = substep.contacts;
   std::vector<FreePair>& pairs = free_pairs_;
   pairs.clear();
-  Recollection recollection(contacts.memory);
+  ContactLookup lookup(contacts.memory);
   for (const FoundPair& pair : contacts.found.pairs) {
     const int island = contacts.islands.of(pair.first->model);
-    if (!contacts.islands.is_jointed(island)) pairs.push_back({island, &pair, recollection.pair(pair)});
+    if (!contacts.islands.is_jointed(island)) pairs.push_back({island, &pair, lookup.pair(pair)});
   }
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const FreePair& a, const FreePair& b) { return a.island < b.island; });

@@ -60,15 +60,17 @@ SurfacePair combine(const Surface& a, const Surface& b, double step) {
   made.mu = std::min({a.mu, b.mu, kMostFriction});
   made.mu2 = std::min({a.mu2.value_or(a.mu), b.mu2.value_or(b.mu), kMostFriction});
   if (made.mu2 != made.mu) made.mode |= dContactMu2;
-  const bool a_directed = a.fdir1 != Vector3::Zero();
-  const bool b_directed = b.fdir1 != Vector3::Zero();
-  if (a_directed || b_directed) pair.directed = a_directed && (!b_directed || a.mu <= b.mu) ? &a : &b;
 
   // Like Gazebo since 7.9: "combines surface slip parameters with a sum" (its Migration.md, ODEPhysics::Collide).
   made.slip1 = a.slip1 + b.slip1;
   made.slip2 = a.slip2 + b.slip2;
   if (made.slip1 > 0) made.mode |= dContactSlip1;
   if (made.slip2 > 0) made.mode |= dContactSlip2;
+  // With equal limits a direction would only make a square of Coulomb's cone. Wheels often have one, and turn with it.
+  const bool is_isotropic = made.mu2 == made.mu && made.slip1 == made.slip2;
+  const bool a_directed = !is_isotropic && a.fdir1 != Vector3::Zero();
+  const bool b_directed = !is_isotropic && b.fdir1 != Vector3::Zero();
+  if (a_directed || b_directed) pair.directed = a_directed && (!b_directed || a.mu <= b.mu) ? &a : &b;
 
   made.rhoN = std::max(a.torsion, b.torsion);
   made.rho = made.rho2 = std::max(a.rolling, b.rolling);

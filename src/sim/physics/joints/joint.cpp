@@ -218,11 +218,25 @@ void Joint::set_stops(int index, double step) {
   const double to_lower = here - lower - reach - 2 * step * std::max(-speed, 0.0);
   const double to_upper = upper - here - reach - 2 * step * std::max(speed, 0.0);
   const Stop stop = std::min(to_lower, to_upper) > 0 ? Stop::kNone : to_lower < to_upper ? Stop::kLower : Stop::kUpper;
-  if (stop == Stop::kNone && axis.stop == Stop::kNone) return;
+  if (stop == Stop::kNone) {
+    leave_stop(axis, here);
+    return;
+  }
   if (axis.stop == Stop::kNone || axis.stop == Stop::kBeyond) axis.rows->set(dParamStopERP, -1);
   axis.stop = stop;
+  axis.leaving = Leaving::kNot;
   set_range(*axis.rows, stop == Stop::kLower ? 2 * here - lower : -dInfinity,
             stop == Stop::kUpper ? 2 * here - upper : dInfinity);
+}
+
+/// With an unlimited range ODE does not look at the position, and keeps what it has found before: it would write the
+/// row of a stop for which it has made no room. So there is a substep with a range in which the axis surely is.
+void Joint::leave_stop(Axis& axis, double here) {
+  if (std::exchange(axis.stop, Stop::kNone) != Stop::kNone) axis.leaving = Leaving::kBegins;
+  if (axis.leaving == Leaving::kNot) return;
+  const bool begins = axis.leaving == Leaving::kBegins;
+  axis.leaving = begins ? Leaving::kEnds : Leaving::kNot;
+  set_range(*axis.rows, begins && here >= 0 ? here - 1 : -dInfinity, begins && here < 0 ? here + 1 : dInfinity);
 }
 
 void Joint::transfer_own(StateArchive&) {}
@@ -245,7 +259,7 @@ void Joint::transfer(StateArchive& archive) {
 /// Sets ODE's rows so that the next set_stops() continues from `axis.stop`.
 void Joint::restore_stop(Axis& axis) {
   if (axis.stop == Stop::kNone) {
-    set_range(*axis.rows, -dInfinity, dInfinity);
+    axis.leaving = Leaving::kBegins;  // the rows may be those of a stop
   } else {
     axis.rows->set(dParamStopERP, axis.stop == Stop::kBeyond ? kErrorReduction : -1);
   }

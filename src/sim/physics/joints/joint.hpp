@@ -84,6 +84,8 @@ class Joint {
     kUpper,
     kBeyond  // the axis is beyond a limit and returns, as ODE has it
   };
+  /// Where an axis is on its way from a stop to rows without one. It is not saved: without an effect on the motion.
+  enum class Leaving { kNot, kBegins, kEnds };
   struct Axis {
     AxisDescription description;
     double target_position = 0;
@@ -99,6 +101,7 @@ class Joint {
     std::optional<Motor> rows;
     double shift = 0;  // rad or m, of ODE's positions
     Stop stop = Stop::kNone;
+    Leaving leaving = Leaving::kNot;
     std::optional<Motor> own_motor, own_friction, own_damper;
     const Motor* motor = nullptr;     // points to one of the above; null in a gearbox
     const Motor* friction = nullptr;  // null when there is none
@@ -109,6 +112,7 @@ class Joint {
   void follow_leader(int index, double step);
   void drive_spring(int index, double step);
   void set_stops(int index, double step);
+  static void leave_stop(Axis& axis, double here);
   void restore_stop(Axis& axis);
 
   std::vector<Axis> axes_;

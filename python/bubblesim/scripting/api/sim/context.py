@@ -24,6 +24,12 @@ class ApiContext(SimConstants):
         self._world = self._simulation.world
         self._caller = caller
         self._edits = caller.shared.edits
+        self._motions: dict[int, Any] = {}
+        """Trajectories that the caller has prepared, by handle,"""
+        self._particles: dict[int, Any] = {}
+        """its particles, and"""
+        self._clouds: dict[int, list[list[float]]] = {}
+        """the points of its clouds."""
         self._tree = ObjectTree(self._world, caller.shared.dummies, self._edits)
 
     def _is_stopped(self) -> bool:

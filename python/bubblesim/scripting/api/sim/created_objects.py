@@ -33,30 +33,31 @@ class CreatedObjectFunctions(ObjectChangeFunctions):
     def createPrimitiveShape(self, primitive_type: int, sizes: Vector3, options: int = 0) -> int:
         """Create a shape at the origin and return its handle; not in sysCall_sensing.
 
-        Types: sim.primitiveshape_cuboid, spheroid, cylinder, capsule, plane and disc; ``sizes`` are full lengths along
-        x, y, z in m. ``options`` are for drawings. As in the original, the shape is static and not respondable until
-        sim.setObjectInt32Param sets sim.shapeintparam_static to 0 and sim.shapeintparam_respondable to 1. Its mass is
-        that of water.
-        """
+        Types: sim.primitiveshape_cuboid, spheroid, cylinder, cone, capsule, plane and disc; ``sizes`` are full lengths
+        along x, y, z in m. ``options`` are for drawings. As in the original, the shape is static and not respondable
+        until sim.setObjectInt32Param sets sim.shapeintparam_static to 0 and sim.shapeintparam_respondable to 1. Its
+        mass is that of water."""
         return self._add_shape(PrimitiveShape(primitive_type, list(sizes)))
 
     def createPureShape(
         self, primitive_type: int, options: int, sizes: Vector3, mass: float, precision: object = None
     ) -> int:
-        """Create a shape at the origin and return its handle (old name); the types are those of createPrimitiveShape
-        with sim.pure_primitive_ as prefix. ``options``: 8 respondable, 16 static; ``mass`` in kg."""
-        kinds = {
-            self.pure_primitive_plane: self.primitiveshape_plane,
-            self.pure_primitive_disc: self.primitiveshape_disc,
-            self.pure_primitive_cuboid: self.primitiveshape_cuboid,
-            self.pure_primitive_spheroid: self.primitiveshape_spheroid,
-            self.pure_primitive_cylinder: self.primitiveshape_cylinder,
-        }
+        """Create a shape at the origin and return its handle (old name). Types: 0 cuboid, 1 sphere, 2 cylinder, 3 cone.
+        ``options``: 8 respondable, 16 static; ``mass`` in kg."""
+        kinds = (
+            self.primitiveshape_cuboid,
+            self.primitiveshape_spheroid,
+            self.primitiveshape_cylinder,
+            self.primitiveshape_cone,
+        )
+        if not 0 <= primitive_type < len(kinds):
+            raise ValueError(
+                f"{primitive_type} is not a type of createPureShape: 0 to 3, cuboid, sphere, cylinder, cone"
+            )
         if not mass > 0:
             raise ValueError(f"the mass of a shape must be positive, found {mass:g}")
-        kind = kinds.get(primitive_type, primitive_type)
         flags = {"static": bool(options & _STATIC), "respondable": bool(options & _RESPONDABLE)}
-        return self._add_shape(PrimitiveShape(kind, list(sizes), mass, **flags))
+        return self._add_shape(PrimitiveShape(kinds[primitive_type], list(sizes), mass, **flags))
 
     def removeObjects(self, handles: Integers, delayed: bool = False) -> int:
         """Remove dummies and whole models; return their number. ``delayed`` has no effect.

@@ -5,15 +5,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from bubblesim.scripting.api.kinds import Bytes, Handle, TextOrBytes
+from bubblesim.scripting.api.kinds import Bytes, DataOrNothing, Handle
 from bubblesim.scripting.api.sim.signals import SignalFunctions
 
 
 class CustomDataFunctions(SignalFunctions):
     """Data by object, or sim.handle_scene, and name. It stays when the simulation stops, until the node ends."""
 
-    def writeCustomDataBlock(self, handle: Handle, tag: str, data: TextOrBytes) -> None:
-        """Attach bytes or a string to an object; empty data removes it (old name)."""
+    def writeCustomDataBlock(self, handle: Handle, tag: str, data: DataOrNothing = None) -> None:
+        """Attach bytes or a string to an object; nothing (nil) or empty data removes it (old name)."""
         self._write(handle, tag, data)
 
     def readCustomDataBlock(self, handle: Handle, tag: str) -> str | bytes | None:
@@ -25,7 +25,7 @@ class CustomDataFunctions(SignalFunctions):
         """Return the names of the data of an object (old name)."""
         return self._tags(handle)
 
-    def writeCustomStringData(self, handle: Handle, tag: str, data: TextOrBytes) -> None:
+    def writeCustomStringData(self, handle: Handle, tag: str, data: DataOrNothing = None) -> None:
         """Attach a string to an object; an empty one removes it."""
         self._write(handle, tag, data)
 
@@ -37,7 +37,7 @@ class CustomDataFunctions(SignalFunctions):
         """Return the names of the data of an object."""
         return self._tags(handle)
 
-    def writeCustomBufferData(self, handle: Handle, tag: str, data: Bytes) -> None:
+    def writeCustomBufferData(self, handle: Handle, tag: str, data: DataOrNothing = None) -> None:
         """Attach bytes to an object; none remove them."""
         self._write(handle, tag, data)
 
@@ -45,7 +45,7 @@ class CustomDataFunctions(SignalFunctions):
         """Return bytes that were attached; None (nil) if there are none."""
         return self.readCustomDataBlock(handle, tag)
 
-    def writeCustomTableData(self, handle: Handle, tag: str, table: Any) -> None:
+    def writeCustomTableData(self, handle: Handle, tag: str, table: Any = None) -> None:
         """Attach a table to an object; an empty one removes it."""
         self._write(handle, tag, table)
 

@@ -57,7 +57,7 @@ class MatrixFunctions(ApiContext):
         return result
 
     def invertMatrix(self, matrix: Vector12) -> Vector:
-        """Return the inverse of a matrix (old name); unlike in Lua of the original, the argument is not changed."""
+        """Return the inverse of a matrix (old name). In Lua, the argument changes, as in the original."""
         return self.getMatrixInverse(matrix)
 
     def getPoseInverse(self, pose: Vector7) -> Vector:
@@ -65,15 +65,16 @@ class MatrixFunctions(ApiContext):
         return poses.inverse(pose)
 
     def multiplyVector(self, frame: Numbers, points: Numbers) -> Vector:
-        """Transform one or several points, 3 numbers each, by a matrix (12 or 16 numbers) or a pose (7 numbers)."""
+        """Transform one or several points, 3 numbers each, by a matrix (12 or 16 numbers) or a pose (7 numbers).
+        Numbers after the last point are ignored."""
         if len(frame) not in (7, 12, 16):
             raise ValueError(f"sim.multiplyVector: expected a pose or a matrix, found {len(frame)} numbers")
-        if len(points) % 3:
+        if len(points) < 3:
             raise ValueError(f"sim.multiplyVector: expected 3 numbers per point, found {len(points)}")
         rows = rotations.matrix_of_pose(frame) if len(frame) == 7 else frame
         return [
             sum(rows[4 * row + k] * points[start + k] for k in range(3)) + rows[4 * row + 3]
-            for start in range(0, len(points), 3)
+            for start in range(0, len(points) - 2, 3)
             for row in range(3)
         ]
 
@@ -99,12 +100,16 @@ class MatrixFunctions(ApiContext):
         begin, end = poses.of_matrix(first)[3:], poses.of_matrix(second)[3:]
         return poses.axis_angle(rotations.product(end, [-begin[0], -begin[1], -begin[2], begin[3]]))
 
-    def rotateAroundAxis(self, matrix: Vector12, axis: Vector3, point: Vector3, angle: float) -> Vector:
-        """Rotate a matrix by an angle about an axis through a point."""
+    def rotateAroundAxis(self, frame: Numbers, axis: Vector3, point: Vector3, angle: float) -> Vector:
+        """Rotate a matrix (12 or 16 numbers) or a pose (7 numbers) by an angle about an axis through a point."""
+        if len(frame) not in (7, 12, 16):
+            raise ValueError(f"sim.rotateAroundAxis: expected a pose or a matrix, found {len(frame)} numbers")
+        pose = frame if len(frame) == 7 else poses.of_matrix(frame)
         turn = [0.0, 0.0, 0.0, *poses.about_axis(axis, angle)]
-        moved = [x - y for x, y in zip(matrix[3::4], point, strict=True)]
-        turned = poses.multiply(turn, [*moved, *poses.of_matrix(matrix)[3:]])
-        return rotations.matrix_of_pose([*(x + y for x, y in zip(turned[:3], point, strict=True)), *turned[3:]])
+        moved = [x - y for x, y in zip(pose[:3], point, strict=True)]
+        turned = poses.multiply(turn, [*moved, *pose[3:]])
+        result = [*(x + y for x, y in zip(turned[:3], point, strict=True)), *turned[3:]]
+        return result if len(frame) == 7 else rotations.matrix_of_pose(result)
 
     def yawPitchRollToAlphaBetaGamma(self, yaw: float, pitch: float, roll: float) -> tuple[float, float, float]:
         """Return the Euler angles of yaw, pitch and roll: R = Rz(yaw) Ry(pitch) Rx(roll)."""

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+import math
 
 from bubblesim._core import sensor_kind
 from bubblesim.geometry import poses, rotations
@@ -24,6 +25,7 @@ from bubblesim.scripting.api.sim.context import ApiContext
 Vector = list[float]
 WORLD = ApiContext.handle_world
 HANDLE_ALL = ApiContext.handle_all
+_LEAST_LENGTH = 0.1  # of a quaternion
 
 
 class ObjectFunctions(ApiContext):
@@ -100,7 +102,7 @@ class ObjectFunctions(ApiContext):
             case _:
                 return name
 
-    def isHandle(self, handle: int) -> bool:
+    def isHandle(self, handle: int, object_type: int = -1) -> bool:
         """Return whether there is an object with this handle."""
         return handle >= 0 and self._tree.contains(self._resolve(handle))
 
@@ -223,8 +225,27 @@ class ObjectFunctions(ApiContext):
         handle = self._resolve(handle)
         if relative_to == WORLD:
             return self._tree.pose(handle)
+        joint = self._joint_with_base_frame(relative_to)
+        if joint >= 0:
+            return poses.multiply(self._motion_of(joint), self._tree.pose_in(handle, joint))
         frame = self._frame(handle, relative_to)
         return self._tree.pose(handle) if frame is None else self._tree.pose_in(handle, frame)
+
+    def _joint_with_base_frame(self, relative_to: int) -> int:
+        """Return the joint of a handle with sim.handleflag_reljointbaseframe; -1 for other handles."""
+        flag = self.handleflag_reljointbaseframe
+        if relative_to < 0 or not relative_to & flag or self._tree.contains(relative_to):
+            return -1
+        return self._resolve(relative_to & ~flag)
+
+    def _motion_of(self, joint: int) -> Vector:
+        """Return the moving frame of a joint in the frame of its base; the identity for what is no joint that moves."""
+        if self._tree.kind(joint) != "joint" or str(self._world.joint_type(joint)) == "fixed":
+            return list(poses.IDENTITY)
+        position = float(self._world.joint_position(joint))
+        if str(self._world.joint_type(joint)) == "prismatic":
+            return [0.0, 0.0, position, 0.0, 0.0, 0.0, 1.0]
+        return [0.0, 0.0, 0.0, 0.0, 0.0, math.sin(position / 2), math.cos(position / 2)]
 
     def _frame(self, handle: Handle, relative_to: int) -> int | None:
         """Return the object with the reference frame; None for the world's."""
@@ -237,5 +258,12 @@ class ObjectFunctions(ApiContext):
 
     def _set_pose(self, handle: Handle, pose: Vector, relative_to: int) -> None:
         handle = self._resolve(handle)
+        length = math.hypot(*pose[3:])
+        if math.isfinite(length) and length > _LEAST_LENGTH:  # numbers that scripts have computed
+            pose = [*pose[:3], *(number / length for number in pose[3:])]
+        joint = self._joint_with_base_frame(relative_to)
+        if joint >= 0:
+            self._tree.set_pose(handle, poses.multiply(poses.inverse(self._motion_of(joint)), pose), joint)
+            return
         frame = self._frame(handle, relative_to)
         self._tree.set_pose(handle, pose, WORLD if frame is None else frame)

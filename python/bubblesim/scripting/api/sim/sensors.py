@@ -21,6 +21,8 @@ from bubblesim.scripting.api.sim.object_collections import CollectionFunctions
 
 Reading = tuple[int, float, list[float], int, list[float]]
 
+_NOTHING: Reading = (0, 0.0, [0.0, 0.0, 0.0], -1, [0.0, 0.0, 0.0])
+
 
 class SensorFunctions(CollectionFunctions):
     """Proximity sensors return (result, distance, point, object, normal) in the sensor's frame, metres. They detect the
@@ -32,7 +34,10 @@ class SensorFunctions(CollectionFunctions):
         return self._detected(read_proximity(self._simulation, sensor), sensor)
 
     def handleProximitySensor(self, sensor: Handle) -> Reading:
-        """Measure now."""
+        """Measure now; for sim.handle_all, and handle_all_except_explicit, nothing: sensors measure when they are
+        due."""
+        if sensor in (self.handle_all, self.handle_all_except_explicit):
+            return _NOTHING
         sensor = self._resolve(sensor)
         return self._detected(measure_proximity(self._simulation, sensor), sensor)
 
@@ -103,4 +108,4 @@ class SensorFunctions(CollectionFunctions):
         """Return a reading without an object that does not belong to an object or collection."""
         if reading[3] < 0 or self._belongs(reading[3], entity):
             return reading
-        return 0, 0.0, [0.0, 0.0, 0.0], -1, [0.0, 0.0, 0.0]
+        return _NOTHING

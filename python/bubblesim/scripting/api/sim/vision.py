@@ -64,8 +64,11 @@ class VisionFunctions(CollectionFunctions):
     def getVisionSensorCharImage(
         self, sensor: Handle, x: int = 0, y: int = 0, width: int = 0, height: int = 0
     ) -> tuple[bytes, int, int]:
-        """Return the image as bytes, its width and its height (old style)."""
-        data, (columns, rows) = self.getVisionSensorImg(sensor, 0, 0.0, [x, y], [width, height])
+        """Return the image as bytes, its width and its height (old style); with sim.handleflag_greyscale, added to the
+        handle, one byte a pixel."""
+        grey = bool(sensor > 0 and sensor & self.handleflag_greyscale)
+        sensor = sensor & ~self.handleflag_greyscale if grey else sensor
+        data, (columns, rows) = self.getVisionSensorImg(sensor, int(grey), 0.0, [x, y], [width, height])
         return data, columns, rows
 
     def getVisionSensorDepth(
@@ -97,12 +100,21 @@ class VisionFunctions(CollectionFunctions):
         """Return the image as an array of height x width x 3 without a copy, rows from top to bottom."""
         return self._picture(read_camera(self._simulation, self._resolve(sensor)), sensor)
 
-    def readVisionSensor(self, sensor: Handle) -> Packets:
-        """Return 0, and minimum, maximum and mean of the last image's intensity, red, green, blue and depth."""
-        return 0, _statistics(read_camera(self._simulation, self._resolve(sensor)))
+    def readVisionSensor(self, sensor: Handle) -> tuple[Any, ...]:
+        """Return 0, and minimum, maximum and mean of the last image's intensity, red, green, blue and depth.
+
+        A sysCall_vision of the camera's script may set the result to 1, and add lists of numbers.
+        """
+        handle = self._resolve(sensor)
+        triggered, packets = self._caller.shared.vision_results.get(handle, (False, []))
+        more = [np.frombuffer(_raw(packet), np.float32).tolist() for packet in packets]
+        return (int(triggered), _statistics(read_camera(self._simulation, handle)), *more)
 
     def handleVisionSensor(self, sensor: Handle) -> Packets:
-        """Measure now; return the same as readVisionSensor."""
+        """Measure now; return the same as readVisionSensor; for sim.handle_all, and handle_all_except_explicit,
+        nothing: cameras measure when they are due."""
+        if sensor in (self.handle_all, self.handle_all_except_explicit):
+            return 0, []
         return 0, _statistics(measure_camera(self._simulation, self._resolve(sensor)))
 
     def checkVisionSensor(self, sensor: Handle, entity: Handle) -> Packets:
@@ -114,6 +126,36 @@ class VisionFunctions(CollectionFunctions):
         entity = entity if entity == self.handle_all else self._resolve(entity)
         seen = any(self._belongs(int(link), entity) for link in np.unique(image.objects) if link >= 0)
         return int(seen), _statistics(image)
+
+    def getVisionSensorImage(
+        self, sensor: Handle, x: int = 0, y: int = 0, width: int = 0, height: int = 0, returns: int = 0
+    ) -> Any:
+        """Return the image as numbers from 0 to 1, red, green and blue of each pixel, rows from bottom to top (old
+        style). ``returns`` 1: as bytes. sim.handleflag_greyscale, added to the handle: one number a pixel."""
+        grey = bool(sensor > 0 and sensor & self.handleflag_greyscale)
+        sensor = sensor & ~self.handleflag_greyscale if grey else sensor
+        data, _ = self.getVisionSensorImg(sensor, int(grey), 0.0, [x, y], [width, height])
+        return data if returns else (np.frombuffer(data, np.uint8) / 255.0).tolist()
+
+    def setVisionSensorImage(self, sensor: Handle, image: Any) -> None:
+        """Replace the image of a camera, by numbers from 0 to 1 or by bytes (old style)."""
+        if not isinstance(image, bytes | bytearray | memoryview | str):
+            image = np.clip(np.asarray(image, float) * 255.0 + 0.5, 0, 255).astype(np.uint8).tobytes()
+        self.setVisionSensorImg(sensor, image)
+
+    def getVisionSensorDepthBuffer(
+        self, sensor: Handle, x: int = 0, y: int = 0, width: int = 0, height: int = 0
+    ) -> Any:
+        """Return depths, 0 at the near plane to 1 at the far plane, rows from bottom to top (old style). Added to the
+        handle, sim.handleflag_depthbuffermeters gives metres, and handleflag_codedstring packed floats."""
+        flags = sensor & (self.handleflag_depthbuffermeters | self.handleflag_codedstring) if sensor > 0 else 0
+        metres = int(bool(flags & self.handleflag_depthbuffermeters))
+        data, _ = self.getVisionSensorDepth(sensor & ~flags if flags else sensor, metres, [x, y], [width, height])
+        return data if flags & self.handleflag_codedstring else np.frombuffer(data, np.float32).tolist()
+
+    def getVisionSensorResolution(self, sensor: Handle) -> list[int]:
+        """Return [width, height] in pixels (old name of getVisionSensorRes)."""
+        return self.getVisionSensorRes(sensor)
 
     def transformImage(self, image: Bytes, resolution: Integers, options: int) -> bytes:
         """Flip an image: options 2 left to right, 4 top to bottom; 1 for four bytes per pixel."""
@@ -172,3 +214,8 @@ def _statistics(image: Any) -> list[float]:
     pixels = np.zeros((*depth.shape, 3)) if image.rgb is None else image.rgb / 255
     channels = np.dstack([pixels.mean(axis=2), pixels, depth]).reshape(-1, 5)
     return [float(value) for of in (np.min, np.max, np.mean) for value in of(channels, axis=0)]
+
+
+def _raw(packet: Any) -> bytes:
+    data = packet.encode("latin-1") if isinstance(packet, str) else bytes(packet)
+    return data[: len(data) // 4 * 4]

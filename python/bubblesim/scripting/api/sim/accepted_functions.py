@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`sim` functions for parts of CoppeliaSim that are not here: they accept their arguments, with a warning."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bubblesim.geometry import poses
+from bubblesim.scripting.api.kinds import Handle, Numbers, Vector12
+from bubblesim.scripting.api.sim.logs import LogFunctions
+
+
+class AcceptedFunctions(LogFunctions):
+    """Objects that scripts cannot make here are dummies with a pose and a name; a warning states it once."""
+
+    def createJoint(
+        self, kind: int, mode: int = 0, options: int = 0, sizes: Any = None, colour: Any = None, other: Any = None
+    ) -> int:
+        """Return a dummy in place of a joint: joints are made in the scene's file, or in simIK."""
+        return self._stand_in_for("Joint", "createJoint", "a joint that a script creates moves nothing: it is a dummy")
+
+    def createProximitySensor(
+        self, kind: int, subtype: int = 0, options: int = 0, integers: Any = None, floats: Any = None, more: Any = None
+    ) -> int:
+        """Return a dummy in place of a proximity sensor: sensors are made in the scene's file."""
+        return self._stand_in_for("Proximity_sensor", "createProximitySensor", "it is a dummy, which measures nothing")
+
+    def createVisionSensor(self, options: int, integers: Any = None, floats: Any = None, more: Any = None) -> int:
+        """Return a dummy in place of a vision sensor: sensors are made in the scene's file."""
+        return self._stand_in_for("Vision_sensor", "createVisionSensor", "it is a dummy, which measures nothing")
+
+    def createForceSensor(self, options: int, integers: Any = None, floats: Any = None, more: Any = None) -> int:
+        """Return a dummy in place of a force sensor: sensors are made in the scene's file."""
+        return self._stand_in_for("Force_sensor", "createForceSensor", "it is a dummy, which measures nothing")
+
+    def createOctree(self, size: float, options: int = 0, point_size: float = 1.0, reserved: Any = None) -> int:
+        """Return a dummy in place of an octree."""
+        return self._stand_in_for("Octree", "createOctree", "it is a dummy")
+
+    def createShape(
+        self,
+        options: int,
+        shading_angle: float,
+        vertices: Numbers,
+        indices: Numbers,
+        normals: Any = None,
+        coordinates: Any = None,
+        texture: Any = None,
+        resolution: Any = None,
+    ) -> int:
+        """Return a dummy in place of a shape of triangles: such shapes are made in the scene's file."""
+        return self._stand_in_for("Shape", "createShape", "a shape of triangles is a dummy here")
+
+    def setLinkDummy(self, dummy: Handle, other: int) -> int:
+        """Keep which dummy is linked to another one; -1: none. Return 1."""
+        first = self._resolve(dummy)
+        self._tree.dummy(first)  # raises
+        settings = self._caller.shared.settings
+        before = settings.get((int, f"link of {first}"), -1)
+        if before >= 0:
+            settings[int, f"link of {before}"] = -1
+        second = -1 if other < 0 else self._resolve(other)
+        settings[int, f"link of {first}"] = second
+        if second >= 0:
+            self._tree.dummy(second)  # raises
+            settings[int, f"link of {second}"] = first
+        return 1
+
+    def getLinkDummy(self, dummy: Handle) -> int:
+        """Return the dummy that is linked to one; -1 if there is none."""
+        handle = self._resolve(dummy)
+        self._tree.dummy(handle)  # raises
+        return int(self._caller.shared.settings.get((int, f"link of {handle}"), -1))
+
+    def setSphericalJointMatrix(self, joint: Handle, matrix: Vector12) -> int:
+        """Turn a spherical joint: its child, if it is a frame; physics alone turns joints of bodies. Return 1."""
+        handle = self._resolve(joint)
+        if self._tree.has_body(handle):
+            self._warn("setSphericalJointMatrix", "physics alone turns a spherical joint")
+            return 1
+        pose = poses.of_matrix(matrix)
+        for child in self._tree.children(handle):
+            if not self._tree.has_body(child):
+                self._tree.set_pose(child, pose, handle)
+        return 1
+
+    def setSphericalJointRotation(self, joint: Handle, quaternion: Numbers) -> int:
+        """Turn a spherical joint; see setSphericalJointMatrix."""
+        return 1
+
+    def addScript(self, kind: int, *more: Any) -> int:
+        """Return -1: scripts are files of the scene."""
+        self._warn("addScript", "scripts are files, which the scene names")
+        return -1
+
+    def associateScriptWithObject(self, script: int, handle: int) -> int:
+        """Return -1: scripts are files of the scene."""
+        return -1
+
+    def setScriptText(self, script: int, text: str) -> int:
+        """Return -1: scripts are files of the scene."""
+        return -1
+
+    def getScriptName(self, script: int) -> str:
+        """Return the name of a script's object (old style)."""
+        return self._tree.name(self._resolve(script))
+
+    def setScriptVariable(self, name: str, script: int, value: Any) -> int:
+        """Return -1: call a function of the script instead."""
+        self._warn(
+            "setScriptVariable", "variables of other scripts cannot be set: call a function with callScriptFunction"
+        )
+        return -1
+
+    def getIkGroupHandle(self, name: str) -> int:
+        """Accept the name of an IK group of old scenes, which are not read, with a warning: use simIK. Return 0."""
+        self._warn("getIkGroupHandle", f"the IK group '{name}' is not read from old scenes: use simIK")
+        return 0
+
+    def handleIkGroup(self, group: int = -2) -> int:
+        """Return sim.ikresult_not_performed: IK groups of old scenes are not read; use simIK."""
+        return self.ikresult_not_performed
+
+    def setIkGroupProperties(self, group: int, method: int, iterations: int, damping: float, more: Any = None) -> int:
+        """Accept the settings of an IK group of old scenes; return 1."""
+        return 1
+
+    def setIkElementProperties(
+        self, group: int, tip: int, constraints: int, precision: Any = None, weight: Any = None, more: Any = None
+    ) -> int:
+        """Accept the settings of an element of an IK group of old scenes; return 1."""
+        return 1
+
+    def computeJacobian(self, group: int, options: int = 0, more: Any = None) -> int:
+        """Return -1: IK groups of old scenes are not read; use simIK.computeJacobian."""
+        self._warn("computeJacobian", "IK groups are not read from old scenes: use simIK")
+        return -1
+
+    def getIkGroupMatrix(self, group: int, options: int = 0) -> tuple[list[float], list[int]]:
+        """Return an empty matrix: IK groups of old scenes are not read; use simIK.getJacobian."""
+        self._warn("getIkGroupMatrix", "IK groups are not read from old scenes: use simIK")
+        return [], [0, 0]
+
+    def addObjectCustomData(self, handle: Handle, header: int, data: Any, size: Any = None) -> int:
+        """Attach bytes or a string to an object by a number (old name of writeCustomDataBlock); return 1."""
+        owner = self._resolve(handle)
+        self._tree.kind(owner)  # raises
+        if not isinstance(data, str | bytes):
+            raise TypeError(f"the data of an object are a string or bytes, found {type(data).__name__}")
+        self._caller.shared.custom_data[owner, f"#{header}"] = data
+        return 1
+
+    def getObjectCustomData(self, handle: Handle, header: int) -> str | bytes | None:
+        """Return what was attached with addObjectCustomData; None (nil) if there is nothing."""
+        data: str | bytes | None = self._caller.shared.custom_data.get((self._resolve(handle), f"#{header}"))
+        return data
+
+    def getMaterialId(self, name: str) -> int:
+        """Return -1: materials are those of the file."""
+        return -1
+
+    def setShapeMaterial(self, shape: Handle, material: int) -> int:
+        """Accept the material of a shape: materials are those of the file. Return 1."""
+        return 1
+
+    def setModuleInfo(self, *arguments: Any) -> None:
+        """Accept what a module is to log."""
+
+    def registerScriptFunction(self, name: str, help_text: str = "") -> int:
+        """Accept the help of a function; return 1."""
+        return 1
+
+    def registerScriptVariable(self, name: str) -> int:
+        """Accept a variable; return 1."""
+        return 1
+
+    def announceSceneContentChange(self) -> int:
+        """Accept a change of the scene; return 1."""
+        return 1
+
+    def addBanner(self, *arguments: Any) -> int:
+        """Accept a banner in the original's window; return 1."""
+        return 1
+
+    def removeBanner(self, banner: int) -> int:
+        """Accept the handle of a banner; return 1."""
+        return 1
+
+    def broadcastMsg(self, message: Any, options: int = 0) -> None:
+        """Accept a message for callbacks sysCall_msg, which are not called."""
+
+    def setStepper(self, *arguments: Any) -> None:
+        """Accept who steps the simulation."""
+
+    def serialOpen(self, port: Any, baud: int = 9600) -> int:
+        """Return -1: serial ports cannot be opened by scripts."""
+        self._warn("serialOpen", "serial ports cannot be opened")
+        return -1
+
+    def serialClose(self, port: int) -> int:
+        """Return 0."""
+        return 0
+
+    def serialSend(self, port: int, data: Any) -> int:
+        """Return 0: nothing is sent."""
+        return 0
+
+    def serialRead(self, port: int, length: int = 0, *more: Any) -> None:
+        """Return None (nil)."""
+
+    def _stand_in_for(self, name: str, function: str, why: str) -> int:
+        self._warn(function, why)
+        return self._caller.shared.dummies.create(self._world, name, 0.01, temporary=not self._is_stopped()).handle
+
+    def _warn(self, function: str, why: str) -> None:
+        self.addLog(self.verbosity_scriptwarnings | self.verbosity_once, f"sim.{function}: {why}")

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Robots that others have published, started by their own launch files: their topics, and how they move."""
+
+import json
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from launch_support import ROBOTS, launched, with_packages
+from node_support import write
+from ros_support import DEADLINE, SUPPORT, RosCore, wait_until
+from service_caller import ServiceCaller
+
+pytestmark = pytest.mark.skipif(ROBOTS is None, reason="the robots of others are not there")
+
+# Packages of sensors that the robots do not carry, whose files their descriptions include all the same.
+NOT_MOUNTED = {
+    "fath_pivot_mount_description": ["lockmount.urdf.xacro"],
+    "flir_camera_description": ["flir_blackflys.urdf.xacro"],
+    "realsense2_description": ["_d435.urdf.xacro"],
+    "velodyne_description": ["VLP-16.urdf.xacro", "HDL-32E.urdf.xacro"],
+}
+EMPTY = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"/>'
+SPEED = {"BUBBLESIM_GAZEBO_OPTIONS": "--speed 3 --seed 1"}
+
+
+def environment(core: RosCore, folder: Path, **more: str) -> dict[str, str]:
+    assert ROBOTS is not None
+    for package, files in NOT_MOUNTED.items():
+        (folder / package / "urdf").mkdir(parents=True)
+        write(folder / package / "package.xml", f"<package><name>{package}</name></package>")
+        for name in files:
+            write(folder / package / "urdf" / name, EMPTY)
+    return with_packages(core.env, ROBOTS, folder, **SPEED, **more)
+
+
+def topic(core: RosCore, name: str) -> str:
+    """Return one message as text."""
+    return core.run("rostopic", "echo", "-n", "1", name)
+
+
+def drive(env: dict[str, str], *arguments: object) -> dict[str, Any]:
+    run = subprocess.run(
+        ["/usr/bin/python3", str(SUPPORT / "drive_robot.py"), *map(str, arguments)],
+        env=env,
+        capture_output=True,
+        text=True,
+        timeout=6 * DEADLINE,
+        check=False,
+    )
+    assert run.returncode == 0, run.stderr
+    result: dict[str, Any] = json.loads(run.stdout.splitlines()[-1])
+    return result
+
+
+@pytest.mark.parametrize(
+    ("launch", "model", "commands", "odometry", "speeds", "topics"),
+    [
+        pytest.param(
+            ["turtlebot3_gazebo", "turtlebot3_empty_world.launch"],
+            "turtlebot3_burger",
+            "/cmd_vel",
+            "/odom",
+            (0.2, 0.8),
+            ["/imu", "/scan", "/joint_states", "/odom", "/tf"],
+            id="turtlebot3",
+        ),
+        pytest.param(
+            ["jackal_gazebo", "empty_world.launch", "config:=front_laser", "joystick:=false", "gui:=false"],
+            "jackal",
+            "/cmd_vel",
+            "/odometry/filtered",
+            (0.5, 0.8),
+            ["/imu/data", "/front/scan", "/joint_states", "/jackal_velocity_controller/odom", "/navsat/fix", "/tf"],
+            id="jackal",
+        ),
+        pytest.param(
+            ["husky_gazebo", "empty_world.launch"],
+            "husky",
+            "/cmd_vel",
+            "/odometry/filtered",
+            (0.5, 0.8),
+            ["/imu/data", "/joint_states", "/husky_velocity_controller/odom", "/navsat/fix", "/tf"],
+            id="husky",
+        ),
+    ],
+)
+def test_mobile_robots_drive_and_turn_as_their_odometry_reports(
+    tmp_path: Path,
+    launch: list[str],
+    model: str,
+    commands: str,
+    odometry: str,
+    speeds: tuple[float, float],
+    topics: list[str],
+) -> None:
+    with RosCore(tmp_path / "roslog") as core:
+        env = environment(core, tmp_path / "packages", TURTLEBOT3_MODEL="burger")
+        with (
+            launched(core, env, tmp_path / "log", *launch, ready="/gazebo/link_states"),
+            ServiceCaller(core) as call,
+        ):
+            wait_until(lambda: model in call("/gazebo/get_world_properties")["model_names"], "the robot", 3 * DEADLINE)
+            wait_until(lambda: odometry in core.state()["publishers"], "its odometry", 3 * DEADLINE)
+            for name in topics:
+                assert "nan" not in topic(core, name), name
+            moved = drive(env, model, commands, odometry, *speeds)
+        for reported, true in (moved["distances"], moved["angles"]):
+            assert reported == pytest.approx(true, rel=0.03), moved
+        assert moved["distances"][1] >= 1.9
+
+
+def follow(env: dict[str, str], controller: str, **goal: Any) -> dict[str, Any]:
+    run = subprocess.run(
+        ["/usr/bin/python3", str(SUPPORT / "follow_trajectory.py"), controller, json.dumps(goal)],
+        env=env,
+        capture_output=True,
+        text=True,
+        timeout=6 * DEADLINE,
+        check=False,
+    )
+    assert run.returncode == 0, run.stderr
+    result: dict[str, Any] = json.loads(run.stdout.splitlines()[-1])
+    return result
+
+
+def running(call: ServiceCaller, namespace: str, *controllers: str) -> bool:
+    listed = call(f"{namespace}/controller_manager/list_controllers").get("controller", [])
+    return set(controllers) <= {each["name"] for each in listed if each["state"] == "running"}
+
+
+def test_an_arm_moves_through_a_trajectory(tmp_path: Path) -> None:
+    with RosCore(tmp_path / "roslog") as core:
+        env = environment(core, tmp_path / "packages")
+        launch = ["ur_gazebo", "ur5_bringup.launch", "gui:=false"]
+        ready = "/controller_manager/load_controller"
+        with launched(core, env, tmp_path / "log", *launch, ready=ready), ServiceCaller(core) as call:
+            wait_until(lambda: running(call, "", "eff_joint_traj_controller"), "the controller", 3 * DEADLINE)
+            names = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"]
+            goal = [0.5, -1.2, 1.0, -0.5, 0.4, 0.3]
+            points = [[6.0, [0.0, -1.57, 0.0, -1.57, 0.0, 0.0], [0.0] * 6], [12.0, goal, [0.0] * 6]]
+            joints = [f"{name}_joint" for name in names]
+            result = follow(env, "/eff_joint_traj_controller", names=joints, points=points)
+            assert (result["state"], result["error_code"]) == (3, 0), result
+            assert [result["positions"][name] for name in joints] == pytest.approx(goal, abs=0.1)
+
+
+def test_a_pendulum_is_held_by_its_position_controllers(tmp_path: Path) -> None:
+    with RosCore(tmp_path / "roslog") as core:
+        env = environment(core, tmp_path / "packages")
+        world = ["rrbot_gazebo", "rrbot_world.launch", "gui:=false"]
+        control = ["rrbot_control", "rrbot_control.launch"]
+        with (
+            launched(core, env, tmp_path / "log", *world, ready="/rrbot/controller_manager/load_controller"),
+            launched(core, env, tmp_path / "log2", *control, ready="/rrbot/joint1_position_controller/state"),
+            ServiceCaller(core) as call,
+        ):
+            wait_until(lambda: running(call, "/rrbot", "joint1_position_controller"), "the controllers", 3 * DEADLINE)
+            assert "ranges" in topic(core, "/rrbot/laser/scan")
+            command = "/rrbot/joint1_position_controller/command"
+            with core.publishing(command, "std_msgs/Float64", "data: 0.8"):
+                wait_until(lambda: abs(rrbot_error(core)) < 0.15, "the position", 2 * DEADLINE)
+
+
+def rrbot_error(core: RosCore) -> float:
+    text = topic(core, "/rrbot/joint1_position_controller/state")
+    (line,) = (line for line in text.splitlines() if line.startswith("error:"))
+    (goal,) = (line for line in text.splitlines() if line.startswith("set_point:"))
+    return float(line.split()[1]) if goal.split()[1] == "0.8" else 1.0

@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sends a goal of the action follow_joint_trajectory by actionlib; prints its end as JSON.
+
+Arguments: namespace of the controller, then a JSON object: names; points [[time, positions, velocities or null]...];
+cancel_after in s of simulation time or null; path, a tolerance of all joints or null.
+"""
+
+import json
+import sys
+
+import actionlib
+import rospy
+from control_msgs.msg import FollowJointTrajectoryAction, FollowJointTrajectoryGoal, JointTolerance
+from sensor_msgs.msg import JointState
+from trajectory_msgs.msg import JointTrajectoryPoint
+
+
+def main() -> None:
+    controller, text = rospy.myargv(sys.argv)[1:]
+    wanted = json.loads(text)
+    rospy.init_node("follow_trajectory")
+    states: list[JointState] = []
+    rospy.Subscriber("/joint_states", JointState, states.append, queue_size=1000)
+    client = actionlib.SimpleActionClient(f"{controller}/follow_joint_trajectory", FollowJointTrajectoryAction)
+    assert client.wait_for_server(rospy.Duration(60))
+    goal = FollowJointTrajectoryGoal()
+    goal.trajectory.joint_names = wanted["names"]
+    for time, positions, velocities in wanted["points"]:
+        point = JointTrajectoryPoint(positions=positions, velocities=velocities or [])
+        point.time_from_start = rospy.Duration(time)
+        goal.trajectory.points.append(point)
+    if wanted.get("path"):
+        goal.path_tolerance = [JointTolerance(name=name, position=wanted["path"]) for name in wanted["names"]]
+    feedback: list[float] = []
+    begin = rospy.get_time()
+    client.send_goal(goal, feedback_cb=lambda message: feedback.append(max(map(abs, message.error.positions))))
+    if wanted.get("cancel_after"):
+        rospy.sleep(wanted["cancel_after"])
+        client.cancel_goal()
+    client.wait_for_result(rospy.Duration(60))
+    took = rospy.get_time() - begin
+    result = client.get_result()
+    last = states[-1]
+    print(
+        json.dumps(
+            {
+                "state": client.get_state(),
+                "error_code": result.error_code if result else None,
+                "error_string": result.error_string if result else None,
+                "largest_error": max(feedback, default=0.0),
+                "took": took,
+                "positions": dict(zip(last.name, last.position, strict=True)),
+            }
+        ),
+        flush=True,
+    )
+
+
+if __name__ == "__main__":
+    main()
