@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "bubblesim/messages/bridge.hpp"
 #include "quiet_thread.hpp"
 
 namespace bubblesim {
@@ -13,7 +12,7 @@ const ros::WallDuration kBetweenChecks(0.1);
 
 }  // namespace
 
-StepService::StepService(Action action) : action_(std::move(action)) {
+StepService::StepService(StepAction action) : action_(std::move(action)) {
   for (std::thread& thread : threads_) {
     thread = start_without_signals([this] {
       while (!ending_) queue_.callOne(kBetweenChecks);
@@ -28,17 +27,8 @@ void StepService::stop() {
   }
 }
 
-/// The fields of bubblesim_msgs/Step.
-messages::WireBuffer StepService::answer(messages::WireView request) const {
-  if (request.left() != sizeof(std::uint32_t))
-    throw messages::ServiceError("the request must be 4 bytes: uint32 steps");
-  const StepAnswer answer = action_(request.get<std::uint32_t>());
-  messages::WireBuffer response;
-  response.put<std::uint8_t>(answer.problem.empty() ? 1 : 0);
-  response.put(static_cast<std::uint32_t>(answer.problem.size()));
-  response.put_bytes(answer.problem.data(), answer.problem.size());
-  response.put(answer.time);
-  return response;
+messages::WireBuffer StepService::answer(const SteppingService& service, messages::WireView request) const {
+  return service.answer(action_, request, messages::Layout::kPacked);
 }
 
 }  // namespace bubblesim

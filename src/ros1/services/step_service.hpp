@@ -5,33 +5,30 @@
 
 #include <array>
 #include <atomic>
-#include <functional>
 #include <thread>
 
 #include "bubblesim/messages/wire.hpp"
-#include "bubblesim/ros_bridge.hpp"
+#include "step_answers.hpp"
 
 namespace bubblesim {
 
-/// The answers of the service ~step. They wait for the steps, so threads of their own make them: one may wait, because
-/// only one request at a time is not refused at once, the other answers meanwhile.
+/// The answers of the services that step. They wait for the steps, so threads of their own make them: one may wait,
+/// because only one request at a time is not refused at once, the other answers meanwhile.
 class StepService {
  public:
-  using Action = std::function<StepAnswer(std::uint32_t steps)>;
-
-  explicit StepService(Action action);
+  explicit StepService(StepAction action);
   ~StepService() { stop(); }
   StepService(const StepService&) = delete;
   StepService& operator=(const StepService&) = delete;
 
-  messages::WireBuffer answer(messages::WireView request) const;
+  messages::WireBuffer answer(const SteppingService& service, messages::WireView request) const;
   /// The requests that wait for a thread.
   ros::CallbackQueueInterface& queue() { return queue_; }
   /// Ends the threads, after their current answers.
   void stop();
 
  private:
-  const Action action_;
+  const StepAction action_;
   ros::CallbackQueue queue_;
   std::atomic<bool> ending_{false};
   std::array<std::thread, 2> threads_;

@@ -7,7 +7,7 @@
 
 namespace bubblesim::ros2 {
 
-StepService::StepService(Action action) : action_(std::move(action)) {
+StepService::StepService(StepAction action) : action_(std::move(action)) {
   for (std::thread& thread : threads_) {
     thread = start_without_signals([this] {
       const auto is_ending = [this] { return ending_.load(); };
@@ -26,16 +26,8 @@ void StepService::stop() {
   }
 }
 
-/// The fields of bubblesim_msgs/Step.
-messages::WireBuffer StepService::answer(messages::WireView request) const {
-  if (request.left() < sizeof(std::uint32_t)) throw messages::ServiceError("the request must be 4 bytes: uint32 steps");
-  const StepAnswer answer = action_(request.get<std::uint32_t>());
-  messages::WireBuffer response;
-  response.begin(messages::Layout::kCdr);
-  response.put<std::uint8_t>(answer.problem.empty() ? 1 : 0);
-  response.put_string(answer.problem);
-  response.put(answer.time);
-  return response;
+messages::WireBuffer StepService::answer(const SteppingService& service, messages::WireView request) const {
+  return service.answer(action_, request, messages::Layout::kCdr);
 }
 
 }  // namespace bubblesim::ros2

@@ -3,33 +3,31 @@
 
 #include <array>
 #include <atomic>
-#include <functional>
 #include <thread>
 
-#include "bubblesim/node_bridge.hpp"
+#include "bubblesim/messages/wire.hpp"
 #include "request_queue.hpp"
+#include "step_answers.hpp"
 
 namespace bubblesim::ros2 {
 
-/// The answers of the service ~step. They wait for the steps, so threads of their own make them: one may wait, because
-/// only one request at a time is not refused at once, the other answers meanwhile.
+/// The answers of the services that step. They wait for the steps, so threads of their own make them: one may wait,
+/// because only one request at a time is not refused at once, the other answers meanwhile.
 class StepService {
  public:
-  using Action = std::function<StepAnswer(std::uint32_t steps)>;
-
-  explicit StepService(Action action);
+  explicit StepService(StepAction action);
   ~StepService();
   StepService(const StepService&) = delete;
   StepService& operator=(const StepService&) = delete;
 
-  messages::WireBuffer answer(messages::WireView request) const;
+  messages::WireBuffer answer(const SteppingService& service, messages::WireView request) const;
   /// The requests that wait for a thread.
   RequestQueue& queue() { return queue_; }
   /// Ends the threads, after their current answers.
   void stop();
 
  private:
-  const Action action_;
+  const StepAction action_;
   RequestQueue queue_{nullptr};
   std::atomic<bool> ending_{false};
   std::array<std::thread, 2> threads_;
