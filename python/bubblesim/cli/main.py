@@ -22,6 +22,7 @@ _COMMANDS = (
     "test",
     "sweep",
     "view",
+    "bridge",
     "doctor",
 )
 _FAILED, _BAD_INPUT = 1, 2
@@ -40,6 +41,7 @@ Runs robot scenes and helps to write them. Begin with:
   bubblesim test test_mine.py            test a controller in the simulator
   bubblesim sweep mine.py --seeds 0:99   run over seeds and parameters
   bubblesim view                         open the window of a running simulation
+  bubblesim bridge                       pass topics between ROS 1 and ROS 2
   bubblesim doctor                       diagnose problems of ROS or Python"""
 _EPILOG = """\
 exit codes: 0 success, 1 a check or a run failed, or stdout is full or closed, 2 bad input; `run` returns those of the
