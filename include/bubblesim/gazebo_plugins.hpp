@@ -12,7 +12,8 @@ namespace bubblesim {
 /// in the same step.
 class GazeboPlugins final : public PythonSystem {
  public:
-  explicit GazeboPlugins(PythonEngine& engine);
+  /// `follows_rates`: the time step becomes short enough for the rates at which sensors and plugins publish.
+  GazeboPlugins(PythonEngine& engine, bool follows_rates);
 };
 
 }  // namespace bubblesim

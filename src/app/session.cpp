@@ -117,7 +117,7 @@ Session::Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_fir
     observers_ = std::make_unique<Observers>(python, ObserverOptions{options.record, options.lockstep});
   }
   if (with_ros || has_plugins(simulation_->scene())) {  // without ROS, the skipped plugins are reported
-    plugins_ = std::make_unique<GazeboPlugins>(python);
+    plugins_ = std::make_unique<GazeboPlugins>(python, options.gazebo_compat);
     simulation_->add(*plugins_);
   }
   ScriptOptions how{{},
@@ -131,7 +131,8 @@ Session::Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_fir
   scripts_ = std::make_unique<ChildScripts>(python, how);
   simulation_->add(*scripts_);
   if (with_ros) {
-    services_ = std::make_unique<NodeServices>(python, *scripts_, options.gazebo_compat);
+    services_ =
+        std::make_unique<NodeServices>(python, *scripts_, options.gazebo_compat, node.bridges.front()->node_name());
     simulation_->add(*services_);
   }
   if (observers_) simulation_->add(*observers_);

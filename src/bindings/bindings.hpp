@@ -24,6 +24,7 @@ void bind_editing(pybind11::module_& core);
 void bind_scene_elements(pybind11::module_& core);
 void bind_scene_view(pybind11::module_& core);
 void bind_devices(pybind11::module_& core);
+void bind_control(pybind11::module_& core);  // after the world
 void bind_forces(pybind11::module_& core);
 void bind_reading_messages(pybind11::module_& core);
 void bind_readings(pybind11::module_& core);

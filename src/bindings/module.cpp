@@ -10,6 +10,7 @@ PYBIND11_MODULE(_core, core) {
   bind_world(core);
   bind_object_frames(core);
   bind_devices(core);
+  bind_control(core);
   bind_forces(core);
   bind_readings(core);
   bind_sensors(core);

@@ -5,11 +5,12 @@
 
 namespace bubblesim {
 
-GazeboPlugins::GazeboPlugins(PythonEngine& engine) : PythonSystem(engine, "Gazebo plugins") {
+GazeboPlugins::GazeboPlugins(PythonEngine& engine, bool follows_rates) : PythonSystem(engine, "Gazebo plugins") {
   with_python([&] {
     const auto& [interpreter, runner, bridge] = engine.objects();
     const pybind11::module_ plugins = pybind11::module_::import("bubblesim.gazebo_plugins.robots");
-    methods_->bind(plugins.attr("GazeboPlugins")(runner.attr("simulation"), bridge));
+    methods_->bind(plugins.attr("GazeboPlugins")(runner.attr("simulation"), bridge,
+                                                 pybind11::arg("follows_rates") = follows_rates));
   });
 }
 

@@ -11,9 +11,17 @@ from ros_support import DEADLINE, REPOSITORY, RosCore, start, stop, wait_until
 from workspace_support import Workspace
 
 PACKAGES = {
+    "controller_manager": "spawner",
+    "gazebo_ros": "spawn_model",
+    "joy": "joy_node",
+    "map_server": "map_server",
     "mouse_teleop": "mouse_teleop.py",
     "pointcloud_to_laserscan": "pointcloud_to_laserscan_node",
+    "robot_localization": "ekf_localization_node",
+    "teleop_twist_joy": "teleop_node",
     "teleop_twist_keyboard": "teleop_twist_keyboard.py",
+    "twist_mux": "twist_mux",
+    "xacro": "xacro",
 }
 PROJECT = """cmake_minimum_required(VERSION 3.18)
 project(bubblesim LANGUAGES CXX)

@@ -38,7 +38,7 @@ MODEL = """\
         ),
         (
             '<plugin name="control" filename="libgazebo_ros_control.so"/>',
-            "warning: {file}:10: plugin 'control' (libgazebo_ros_control.so): ros_control is not supported",
+            "warning: {file}:10: plugin 'control' (libgazebo_ros_control.so): the model has no <transmission>",
         ),
         (
             '<plugin name="joints" filename="libgazebo_ros_joint_state_publisher.so">\n'

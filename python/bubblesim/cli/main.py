@@ -23,6 +23,7 @@ _COMMANDS = (
     "sweep",
     "view",
     "bridge",
+    "compat",
     "doctor",
 )
 _FAILED, _BAD_INPUT = 1, 2
@@ -42,6 +43,7 @@ Runs robot scenes and helps to write them. Begin with:
   bubblesim sweep mine.py --seeds 0:99   run over seeds and parameters
   bubblesim view                         open the window of a running simulation
   bubblesim bridge                       pass topics between ROS 1 and ROS 2
+  bubblesim compat                       list the packages for launch files of Gazebo
   bubblesim doctor                       diagnose problems of ROS or Python"""
 _EPILOG = """\
 exit codes: 0 success, 1 a check or a run failed, or stdout is full or closed, 2 bad input; `run` returns those of the

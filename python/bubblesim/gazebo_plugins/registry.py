@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 from pathlib import PurePosixPath
 
+from bubblesim.gazebo_plugins.control.ros_control import RosControl
 from bubblesim.gazebo_plugins.drives.ackermann_drive import AckermannDrive
 from bubblesim.gazebo_plugins.drives.diff_drive import DiffDrive
 from bubblesim.gazebo_plugins.drives.gazebo_drives import GazeboDiffDrive, GazeboSkidSteerDrive
@@ -59,6 +60,7 @@ PLUGINS: dict[str, type[Plugin]] = {
     "gazebo_ros_camera": Camera,
     "gazebo_ros_depth_camera": DepthCamera,
     "gazebo_ros_diff_drive": DiffDrive,
+    "gazebo_ros_control": RosControl,
     "gazebo_ros_ft_sensor": FtSensor,
     "gazebo_ros_gpu_laser": Laser,
     "gazebo_ros_imu": LinkImu,
@@ -123,12 +125,6 @@ NOT_NEEDED = frozenset(
     }
 )
 
-# Explanations for plugins that are not supported, with alternatives.
-REASONS = {
-    "gazebo_ros_control": "ros_control is not supported: drive the joints with a drive plugin, with a child script "
-    "(sim.setJointTargetVelocity) or with topics that a child script subscribes to",
-}
-
 
 def library(filename: str) -> str:
     """Return the library of a file name without the parts that depend on system and version.
@@ -141,6 +137,4 @@ def library(filename: str) -> str:
 
 def why_unknown(name: str) -> str:
     """Return the message for a plugin that is not supported."""
-    if name in REASONS:
-        return REASONS[name]
     return f"plugin is not supported{did_you_mean(nearest_names(name, sorted(PLUGINS)))}; the model runs without it"

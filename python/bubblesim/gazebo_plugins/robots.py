@@ -14,6 +14,7 @@ from bubblesim.gazebo_plugins.registry import PLUGINS, library
 from bubblesim.gazebo_plugins.saved_state import collected, restored
 from bubblesim.gazebo_plugins.sensors.gz_sensor import GzSensor, publishes_as_gz
 from bubblesim.gazebo_plugins.sensors.sensor_topic import NoPlugin, SensorTopic
+from bubblesim.gazebo_plugins.step_length import StepLength, rate_of
 from bubblesim.gazebo_plugins.transforms import Transforms
 from bubblesim.gazebo_plugins.unknown_plugins import UnknownPlugins, plugins_below
 from bubblesim.program.output import write_line
@@ -24,8 +25,11 @@ _WORLD = -1
 class GazeboPlugins:
     """Created by the simulator's node, which calls ``actuate`` and ``publish`` in each step and reports models."""
 
-    def __init__(self, simulation: Any, bridge: Any) -> None:
-        """Create the plugins of the models in the world."""
+    def __init__(self, simulation: Any, bridge: Any, *, follows_rates: bool = False) -> None:
+        """Create the plugins of the models in the world.
+
+        :param follows_rates: the time step of the simulation becomes short enough for their rates.
+        """
         self._simulation = simulation
         self._bridge = bridge
         self._step_time = StepTime(bridge)
@@ -33,6 +37,7 @@ class GazeboPlugins:
         self._plugins: list[Plugin] = []
         self._rotors: dict[int, Any] = {}
         self._unknown = UnknownPlugins()
+        self._step = StepLength(simulation, enabled=follows_rates)
         for description in simulation.plugins:
             self._unknown.report(description)
             self._add(description, _WORLD, _WORLD, None)
@@ -53,9 +58,11 @@ class GazeboPlugins:
         for owner, description in plugins_below(world, model):
             systems.add(library(description.filename))
             self._unknown.report(description)
+            self._step.need(rate_of(description))
             if self._add(description, owner, model, namespace):
                 with_plugin.add(owner)
         for sensor in world.parts(model, "sensor") if self._bridge is not None else ():
+            self._step.need(world.sensor_topic(sensor)[2])
             if world.sensor_topic(sensor)[0]:
                 self._make(SensorTopic, NoPlugin(world.path(sensor)), sensor, model, namespace)
             elif sensor not in with_plugin and publishes_as_gz(world, sensor, systems):
@@ -71,6 +78,7 @@ class GazeboPlugins:
     def reset(self) -> None:
         """Reset all plugins after a world reset."""
         self._each("reset")
+        self._step.fit()
 
     def save_state(self) -> bytes:
         """Return the state of all plugins; empty without plugins."""
@@ -116,7 +124,9 @@ class GazeboPlugins:
     def _make(self, kind: type[Plugin], description: Any, owner: int, model: int, namespace: str | None) -> None:
         parameters = Parameters(description)
         outside = self._bridge, self._step_time, self._transforms
-        context = PluginContext(self._simulation, *outside, owner, model, parameters, namespace, self._rotors)
+        context = PluginContext(
+            self._simulation, *outside, owner, model, parameters, namespace, self._rotors, self._step.need
+        )
         try:
             plugin = kind(context)
             plugin.reset()

@@ -7,6 +7,7 @@ from bubblesim._core.messages import RosVersion
 from bubblesim.both_bridges import bridge_of
 from bubblesim.scripting.host.host import ScriptHost
 from bubblesim.services.drawing_markers import DrawingMarkers
+from bubblesim.services.gazebo_properties import GazeboProperties
 from bubblesim.services.gazebo_services import GazeboServices
 from bubblesim.services.gazebo_topics import GazeboTopics
 from bubblesim.services.model_services import ModelServices
@@ -21,11 +22,13 @@ from bubblesim.services.state_services import advertise_state_services
 class NodeServices:
     """Created by the simulator's node, which calls ``process_input`` and ``publish`` in each step."""
 
-    def __init__(self, host: ScriptHost, *, gazebo_compat: bool) -> None:
+    def __init__(self, host: ScriptHost, *, gazebo_compat: bool, node_name: str) -> None:
         """Advertise all of them through the host's bridge; Gazebo's only with ``gazebo_compat``."""
         ObjectServices(host.simulation, host.bridge)  # referenced by its callbacks
         ModelServices(host)
-        advertise_reset_services(host.bridge, host)
+        # A node with the name gazebo, as in launch files, has /gazebo/reset_simulation among Gazebo's services.
+        is_gazebo = gazebo_compat and node_name == "/gazebo"
+        advertise_reset_services(host.bridge, host, taken=["~reset_simulation"] if is_gazebo else [])
         advertise_state_services(host.bridge, host)
         ros2 = bridge_of(host.bridge, RosVersion.ROS2)
         has_action = ros2.version == RosVersion.ROS2
@@ -36,6 +39,7 @@ class NodeServices:
         self._gazebo: GazeboTopics | None = None
         if gazebo_compat:
             GazeboServices(host)
+            GazeboProperties(host.bridge, host.simulation)
             self._gazebo = GazeboTopics(host.bridge, host.simulation.world)
 
     def process_input(self) -> None:

@@ -44,6 +44,14 @@ def write_address(address: str, port: int) -> Path:
     return file
 
 
+def newest_address_file() -> Path | None:
+    """Return the file of the window that was opened last, None if there is none."""
+    try:
+        return max(_folder().glob("window-*.html"), key=lambda file: file.stat().st_mtime, default=None)
+    except OSError:  # one was removed meanwhile
+        return None
+
+
 def _folder() -> Path:
     runtime = os.environ.get("XDG_RUNTIME_DIR", "")
     if Path(runtime).is_absolute() and os.access(runtime, os.W_OK):  # after su it may be that of another user

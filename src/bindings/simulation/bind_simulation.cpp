@@ -312,6 +312,8 @@ world i of a Batch with this seed.
                              "Simulated seconds of the state that the world shows: `time`, and after the physics of a\n"
                              "step its end. Time stamps of readings and messages.")
       .def_property_readonly("time_step", &Simulation::time_step, "Seconds per step.")
+      .def_property_readonly(
+          "substep", [](const Simulation& s) { return s.scene().substep; }, "Seconds per physics substep of the scene.")
       .def("set_time_step", &Simulation::set_time_step, py::arg("seconds"),
            "Set the seconds per step, 1e-4 to 10, until `reset`.")
       .def_property_readonly(

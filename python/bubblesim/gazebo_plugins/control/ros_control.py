@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gazebo_ros_control: the joints with a <transmission>, and their controllers."""
+
+from __future__ import annotations
+
+import sys
+
+from bubblesim._core import control
+from bubblesim.gazebo_plugins.control.controller import INTERFACES, Joint, Robot, read_gains
+from bubblesim.gazebo_plugins.control.controller_manager import ControllerManager
+from bubblesim.gazebo_plugins.control.ros_parameters import ControllerParameters, read_parameter
+from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
+from bubblesim.messages.names import did_you_mean, nearest_names
+from bubblesim.program.output import write_line
+
+_KINDS = {
+    "EffortJointInterface": "effort",
+    "PositionJointInterface": "position",
+    "PosVelJointInterface": "position",
+    "PosVelAccJointInterface": "position",
+    "VelocityJointInterface": "velocity",
+}
+_GAINS = "gazebo_ros_control/pid_gains"
+
+
+class RosControl(Plugin):
+    """The controllers run before each physics substep; <controlPeriod> has no effect."""
+
+    def __init__(self, context: PluginContext) -> None:
+        """Read the transmissions of the model, and advertise the services of the controller manager."""
+        super().__init__(context)
+        p = self.parameters
+        p.ignore("controlPeriod", "robotParam", "robotSimType", "legacyModeNS", "eStopTopic")
+        self.enter_namespace(of_model=True)
+        p.check()
+        if not hasattr(self.bridge, "search_parameter"):
+            raise p.fail("filename", "needs ROS 1, which has a parameter server")
+        namespace = f"/{self.namespace}"
+        joints = self._joints()
+        if not joints:
+            write_line(sys.stderr, f"warning: {p.title}: the model has no <transmission> of a joint")
+        gains = self._gains(namespace)
+        entries = [
+            (name, joint.handle, INTERFACES[joint.kinds[0]], gains.get(name))
+            for name, joint in joints.items()
+            if joint.kinds
+        ]
+        manager = control.ControllerManager(self.world, context.model, entries)
+        context.endpoints.append(manager.remove)
+        robot = Robot(self, manager, joints, namespace, {name: joint.kinds[0] for name, joint in joints.items()})
+        self._controllers = ControllerManager(robot)
+        context.endpoints.append(self._controllers.close)
+
+    def publish(self) -> None:
+        """Publish what the running controllers publish."""
+        self._controllers.publish()
+
+    def reset(self) -> None:
+        """Reset the controllers."""
+        self._controllers.reset()
+
+    def _joints(self) -> dict[str, Joint]:
+        """Return the joints of the transmissions that have an interface."""
+        handles = {self.world.name(part): part for part in self.parts_of_model() if self.world.kind(part) == "joint"}
+        found: dict[str, Joint] = {}
+        for transmission, joints, of_actuators in control.transmissions(self.world, self.context.model):
+            for name, interfaces in joints:
+                kinds = [
+                    _KINDS[last] for each in interfaces or of_actuators if (last := each.rpartition("/")[2]) in _KINDS
+                ]
+                problem = None
+                if name not in handles:
+                    problem = f"the model has no joint '{name}'{did_you_mean(nearest_names(name, sorted(handles)))}"
+                elif self.world.joint_axes(handles[name]) != 1:
+                    problem = f"the joint '{name}' does not move along one axis"
+                elif not kinds:
+                    problem = f"the joint '{name}' has no <hardwareInterface> of {', '.join(_KINDS)}"
+                if problem is not None:
+                    text = f"warning: {self.parameters.title}: transmission '{transmission}' has no effect: {problem}"
+                    write_line(sys.stderr, text)
+                    continue
+                before = found.get(name)
+                index = len(found) if before is None else before.index
+                known = [] if before is None else list(before.kinds)
+                found[name] = Joint(index, handles[name], list(dict.fromkeys([*known, *kinds])))
+        return found
+
+    def _gains(self, namespace: str) -> dict[str, control.PidGains]:
+        """Return the gains of joints whose positions or velocities are reached by efforts."""
+        gains: dict[str, control.PidGains] = {}
+        for place in dict.fromkeys((f"{namespace.rstrip('/')}/{_GAINS}", f"/{_GAINS}")):
+            parameters = ControllerParameters(place, read_parameter(place))
+            for name in parameters.names_given():
+                gains.setdefault(name, read_gains(parameters.below(name)))
+        return gains
