@@ -22,9 +22,9 @@ PACKAGE = HERE.parent / "python" / "bubblesim"
 
 # Code shared with the run time is in the Python package, which cannot be imported before the compiled module exists.
 # Import only its folder messages/, below an empty stand-in for the package.
-stand_in = ModuleType("bubblesim")
-stand_in.__path__ = [str(PACKAGE)]
-sys.modules["bubblesim"] = stand_in
+placeholder = ModuleType("bubblesim")
+placeholder.__path__ = [str(PACKAGE)]
+sys.modules["bubblesim"] = placeholder
 
 try:
     import em  # type: ignore[import-untyped]

@@ -41,7 +41,7 @@ class CmdVelToTricycle:
         self._lock = threading.Lock()  # callbacks and the timer run in separate threads
         self._wheel = FrontWheel(steering=0.0, speed=0.0)
         self._pose = Pose2D()
-        self._heard_at: float | None = None  # time of the last command, None when stopped
+        self._received_at: float | None = None  # time of the last command, None when stopped
         self._moved_at = rospy.get_time()
         self._steering = rospy.Publisher("steering", Float32, queue_size=1)
         self._speed = rospy.Publisher("speed", Float32, queue_size=1)
@@ -58,16 +58,16 @@ class CmdVelToTricycle:
                 rospy.logwarn_throttle(5.0, f"cmd_vel: {error}; ignored")
                 return
             self._move()
-            self._heard_at = rospy.get_time()
+            self._received_at = rospy.get_time()
             self._command(wheel)
 
     def _on_time(self) -> None:
         with self._lock:
             self._move()
-            if self._heard_at is not None and not 0.0 <= rospy.get_time() - self._heard_at <= self._timeout:
-                self._heard_at = None
+            if self._received_at is not None and not 0.0 <= rospy.get_time() - self._received_at <= self._timeout:
+                self._received_at = None
                 self._command(FrontWheel(self._wheel.steering, 0.0))
-            self._tell()
+            self._publish()
 
     def _command(self, wheel: FrontWheel) -> None:
         self._wheel = wheel
@@ -80,7 +80,7 @@ class CmdVelToTricycle:
         dt, self._moved_at = max(0.0, now - self._moved_at), now  # simulation time jumps back at a restart
         self._pose = moved(self._pose, velocity(self._tricycle, self._wheel), dt)
 
-    def _tell(self) -> None:
+    def _publish(self) -> None:
         message = Odometry()
         message.header.stamp = rospy.Time.from_sec(self._moved_at)
         message.header.frame_id = self._odom_frame

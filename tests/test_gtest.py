@@ -55,7 +55,7 @@ def test_cpp_tests_are_built() -> None:
 def outcomes(request: pytest.FixtureRequest) -> dict[tuple[Path, str], dict[str, Any]]:
     """Return the outcome of each selected case, of one run of each program: starting one takes longer than most cases.
 
-    Cases of a program that does not come to its end are missing.
+    Cases of a program that does not finish are missing.
     """
     selected: dict[Path, list[str]] = {}
     for item in request.session.items:
@@ -69,7 +69,7 @@ def outcomes(request: pytest.FixtureRequest) -> dict[tuple[Path, str], dict[str,
 
 
 def run(program: Path, names: list[str]) -> dict[str, Any]:
-    """Run cases in one process and return the program's report; empty if it does not come to its end."""
+    """Run cases in one process and return the program's report; empty if it does not finish."""
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder, "report.json")
         command = [program, f"--gtest_filter={':'.join(names)}", f"--gtest_output=json:{report}"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/setup prints on which systems it works."""
+"""scripts/setup prints on which systems it works, and what is wrong."""
 
 import subprocess
 from pathlib import Path
@@ -28,7 +28,7 @@ def release(folder: Path, identity: str, version: str | None, name: str) -> Path
 
 
 @pytest.mark.parametrize(("version", "name"), [("12", "bookworm"), ("13", "trixie")])
-def test_nothing_is_said_on_tested_systems(tmp_path: Path, version: str, name: str) -> None:
+def test_nothing_is_printed_on_tested_systems(tmp_path: Path, version: str, name: str) -> None:
     file = release(tmp_path, "debian", version, f"Debian GNU/Linux {version} ({name})")
     assert check(file) == (0, "")
     assert check(file, function="system_release") == (0, f"debian-{version}")
@@ -97,3 +97,24 @@ def test_each_package_of_python_for_tests_has_a_version() -> None:
     wanted = {line for line in (lists / "requirements-tests.txt").read_text().splitlines() if not line.startswith("#")}
     given = {line.partition("==")[0] for line in (lists / "constraints.txt").read_text().splitlines() if "==" in line}
     assert wanted - given == set()
+
+
+@pytest.mark.parametrize(
+    ("proxy", "shown"),
+    [
+        ("http://proxy.example:3128", "http://proxy.example:3128"),
+        ("http://user:secret@proxy.example:3128", "http://***@proxy.example:3128"),
+        ("user:sec@ret/@proxy.example:3128", "***@proxy.example:3128"),
+    ],
+)
+def test_an_error_names_the_proxies_without_their_passwords(tmp_path: Path, proxy: str, shown: str) -> None:
+    code = (REPOSITORY / "scripts" / "setup").read_text().replace("\nmain ", "\nproxies # ")
+    (tmp_path / "scripts" / "environment").mkdir(parents=True)
+    (tmp_path / "scripts" / "setup").write_text(code)
+    (tmp_path / "scripts" / "environment" / "system.bash").write_text(SYSTEM.read_text())
+    configuration = tmp_path / "apt.conf"
+    configuration.write_text(f'Acquire::http::Proxy "{proxy}";\n')
+    environment = {"PATH": "/usr/bin:/bin", "https_proxy": proxy, "APT_CONFIG": str(configuration)}
+    command = ["bash", str(tmp_path / "scripts" / "setup")]
+    run = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    assert run.stdout == f' Set are: https_proxy={shown} Acquire::http::Proxy "{shown}";\n'

@@ -56,7 +56,7 @@ class SensorDefinition {
   bool of_joint = false;  ///< it is mounted on a joint, not on a link
   const MemberTable* description = nullptr;
   const MemberTable* reading = nullptr;
-  /// Those of the members of the reading, then others.
+  /// What observe() can return: the members of the reading that are quantities, then others.
   std::vector<ReadingQuantity> quantities;
 
   /// Empty when the element cannot be used; the reason is reported.

@@ -52,7 +52,7 @@ def run(scene: str, seconds: float, picture: Path) -> None:
     stop = Stop()
     recording = Recording()
     with tempfile.TemporaryDirectory(prefix="bubblesim-demo-") as logs, Programs(Path(logs)) as programs:
-        use_writable_ros_home(Path(logs))
+        use_writable_ros_home()
         provide_master(programs, stop)
         if stop.requested:
             return

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bindings.hpp"
+#include "bubblesim/ros_home.hpp"
 
 PYBIND11_MODULE(_core, core) {
   using namespace bubblesim::bindings;
   core.doc() = "The compiled part of bubblesim.";
+  core.def("use_writable_ros_home", &bubblesim::use_writable_ros_home,
+           "Let ROS write to a temporary folder if it cannot write to ~/.ros, and print that; return it, or ''.");
   bind_messages(core);
   bind_bridge(core);
   bind_plugins(core);

@@ -4,17 +4,13 @@
 #include <ros/exception.h>
 #include <ros/init.h>
 #include <ros/network.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <stdexcept>
 #include <string_view>
-#include <system_error>
 
 #include "advertised_address.hpp"
+#include "bubblesim/ros_home.hpp"
 #include "peer_limits.hpp"
 #include "peer_lines.hpp"
 
@@ -35,22 +31,6 @@ std::string chosen_master(int argc, char** argv) {
   return uri;
 }
 
-/// Lets roscpp, which throws otherwise, write its logs to a temporary folder if it cannot in ~/.ros.
-void use_writable_home() {
-  const auto is_set = [](const char* name) { return std::getenv(name) != nullptr && *std::getenv(name) != '\0'; };
-  if (is_set("ROS_HOME") || is_set("ROS_LOG_DIR") || !is_set("HOME")) return;
-  const std::filesystem::path home = std::filesystem::path(std::getenv("HOME")) / ".ros";
-  std::error_code error;
-  std::filesystem::create_directories(home, error);
-  if (access(home.c_str(), W_OK | X_OK) == 0) return;
-  const std::string why = error ? error.message() : std::generic_category().message(errno);
-  std::string instead = std::filesystem::temp_directory_path(error) / "bubblesim-ros-XXXXXX";
-  if (mkdtemp(instead.data()) == nullptr) return;
-  setenv("ROS_HOME", instead.c_str(), 1);
-  std::fprintf(stderr, "info: %s cannot be written (%s): ROS keeps its files in %s\n", home.c_str(), why.c_str(),
-               instead.c_str());
-}
-
 }  // namespace
 
 void init_node(int& argc, char** argv, const std::string& default_name) {
@@ -64,7 +44,7 @@ void init_node(int& argc, char** argv, const std::string& default_name) {
                                 kUsualMaster);
   }
   stay_on_this_machine(argc, argv);
-  use_writable_home();
+  use_writable_ros_home();
   try {
     ros::init(argc, argv, default_name, ros::init_options::NoSigintHandler);
   } catch (const ros::Exception& error) {

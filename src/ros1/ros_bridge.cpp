@@ -17,6 +17,7 @@
 #include "bubblesim/messages/registry.hpp"
 #include "callbacks/counting_queue.hpp"
 #include "callbacks/notifying_queue.hpp"
+#include "callbacks/request_callbacks.hpp"
 #include "console/log_line.hpp"
 #include "endpoint_table.hpp"
 #include "master/master_thread.hpp"
@@ -32,9 +33,9 @@
 #include "peers/refused_peers.hpp"
 #include "ros_clock.hpp"
 #include "services/services.hpp"
-#include "services/step_service.hpp"
 #include "status/diagnostics.hpp"
 #include "status/graph_reader.hpp"
+#include "step_service.hpp"
 #include "topics/endpoints.hpp"
 #include "topics/topics.hpp"
 
@@ -86,6 +87,7 @@ struct RosBridge::Impl {
   MasterThread master;
   Topics topics{master, publisher_check, queue, guard};
   std::unique_ptr<StepService> step_service;  // before the services, which use its queue
+  std::unique_ptr<RequestCallbacks> step_requests;
   Services services{master, watch, guard, arrivals, options.is_ending};
   std::vector<std::shared_ptr<ServiceServer>> own_servers;
   Parameters parameters{master};
@@ -148,11 +150,12 @@ void RosBridge::Impl::offer_pause_service(const std::string& name, bool paused) 
 }
 
 void RosBridge::Impl::offer_step_services() {
-  step_service = std::make_unique<StepService>(options.on_step);
+  step_service = std::make_unique<StepService>(options.on_step, messages::Layout::kPacked);
+  step_requests = std::make_unique<RequestCallbacks>(step_service->queue());
   for (const SteppingService& service : kSteppingServices) {
     const ServiceType* type = messages::find_service(service.type);
     if (type == nullptr) continue;  // it was taken off meta/services.txt
-    own_servers.push_back(services.add_server_of(step_service->queue(), next_id++, service.name, *type,
+    own_servers.push_back(services.add_server_of(*step_requests, next_id++, service.name, *type,
                                                  [&service, steps = step_service.get()](messages::WireView request) {
                                                    return steps->answer(service, request);
                                                  }));

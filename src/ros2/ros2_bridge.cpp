@@ -20,7 +20,7 @@
 #include "parameters/node_parameters.hpp"
 #include "parameters/parameter_services.hpp"
 #include "services/services.hpp"
-#include "services/step_service.hpp"
+#include "step_service.hpp"
 #include "topics/topics.hpp"
 
 namespace bubblesim {
@@ -82,7 +82,7 @@ struct Ros2Bridge::Impl {
   ros2::NodeParameters parameters{names.full_node(), names.parameters()};
   ros2::Inbox inbox{arrivals};
   ros2::Topics topics{participant, inbox};
-  std::unique_ptr<ros2::StepService> step_service;  // before the services, which use its queue
+  std::unique_ptr<StepService> step_service;  // before the services, which use its queue
   ros2::Services services{participant, guard, arrivals, rosout, options.is_ending};
   EndpointId clock = 0;
   EndpointId parameter_events = 0;
@@ -143,14 +143,14 @@ BridgeTime Ros2Bridge::Impl::now() const {
 }
 
 void Ros2Bridge::Impl::offer_step_services() {
-  step_service = std::make_unique<ros2::StepService>(options.on_step);
+  step_service = std::make_unique<StepService>(options.on_step, messages::Layout::kCdr);
   for (const SteppingService& service : kSteppingServices) {
     const ServiceType* type = messages::find_service(service.type, messages::RosVersion::kRos2);
     if (type == nullptr) continue;  // it was taken off meta/services.txt
     services.add_server(
         next_id++, names.resolve(service.name, "service"), *type,
         [&service, steps = step_service.get()](messages::WireView request) { return steps->answer(service, request); },
-        &step_service->queue());
+        step_service->queue().get());
   }
 }
 

@@ -113,7 +113,7 @@ def test_messages_pushed_out_of_a_queue_are_counted(roscore: RosCore, received: 
     assert int(values["Bytes sent"]) > int(values["Messages sent"]) > 0
 
 
-def test_a_simulation_that_diverges_says_so(roscore: RosCore, received: Diagnostics, tmp_path: Path) -> None:
+def test_a_simulation_that_diverges_reports_that(roscore: RosCore, received: Diagnostics, tmp_path: Path) -> None:
     with Node(roscore.env, tmp_path / "log", endless_fall(tmp_path), "--paused") as node:
         received.wait_for(SIMULATION, lambda level, text, _: (level, text) == (OK, "paused"), "the pause")
         roscore.run("rosservice", "call", "/sim_ros_interface/unpause")

@@ -79,7 +79,7 @@ def test_services_pause_and_resume_it(roscore: RosCore, tmp_path: Path) -> None:
         assert node.output.endswith("init\ncleanup\n")
 
 
-def test_without_a_master_it_says_so_and_runs_on(tmp_path: Path) -> None:
+def test_without_a_master_it_reports_that_and_runs_on(tmp_path: Path) -> None:
     port = free_port()
     script = write(tmp_path / "script.py", REPORT)
     options = ["--until", 0.5, "--child-script", f"/Ball={script}"]

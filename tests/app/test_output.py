@@ -89,7 +89,7 @@ def test_on_a_terminal_the_run_ends_with_what_was_simulated() -> None:
     ), text
 
 
-def test_elsewhere_nothing_is_said_of_what_was_simulated() -> None:
+def test_elsewhere_nothing_is_reported_of_what_was_simulated() -> None:
     assert (
         "simulated"
         not in subprocess.run(

@@ -34,7 +34,7 @@ def box(height: float, sensor: str = "") -> str:
       <sensor name="Bumper" type="contact">{sensor}</sensor></link></model>"""
 
 
-def test_a_resting_box_feels_its_weight(tmp_path: Path) -> None:
+def test_a_resting_box_measures_its_weight(tmp_path: Path) -> None:
     simulation = world(tmp_path, box(0.05))
     simulation.step(40)
     (contact,) = simulation.object("/Bumper").reading.contacts
@@ -71,7 +71,7 @@ def test_only_the_collisions_named_are_felt(tmp_path: Path) -> None:
     assert simulation.object("/Bumper").reading.contacts == []
 
 
-def test_a_static_plate_feels_what_lies_on_it(tmp_path: Path) -> None:
+def test_a_static_plate_measures_what_lies_on_it(tmp_path: Path) -> None:
     plate = """<model name="Plate"><static>true</static><pose>0 0 1 0 0 0</pose><link name="link">
       <collision name="top"><geometry><box><size>1 1 0.1</size></box></geometry></collision>
       <sensor name="Scale" type="contact"><contact><collision>top</collision></contact></sensor></link></model>"""

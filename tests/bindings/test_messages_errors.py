@@ -177,13 +177,13 @@ def test_services_are_no_messages() -> None:
     assert str(caught.value) == "std_srvs/SetBool is a service type, expected a message type"
 
 
-def test_short_messages_say_what_is_missing_where() -> None:
+def test_short_messages_state_what_is_missing_where() -> None:
     with pytest.raises(codec.MessageError) as caught:
         codec.decode("std_msgs/String", b"\5\0\0\0ab")
     assert str(caught.value) == "std_msgs/String: data: the message is truncated: expected 5 more bytes, found 2"
 
 
-def test_long_messages_say_how_much_is_left() -> None:
+def test_long_messages_state_how_much_is_left() -> None:
     with pytest.raises(codec.MessageError) as caught:
         codec.decode("std_msgs/Int8", b"\1\2\3")
     assert str(caught.value) == "std_msgs/Int8: 2 surplus bytes after the last field"

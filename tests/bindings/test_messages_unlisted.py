@@ -118,7 +118,7 @@ def test_a_half_brings_its_service_along(package: Package) -> None:
     assert codec.service_halves("unlisted_half/srv/Charge")[0] == "unlisted_half/ChargeRequest"
 
 
-def test_one_line_says_where_a_type_is_from_and_how_to_list_it(
+def test_one_line_states_where_a_type_is_from_and_how_to_list_it(
     package: Package, capfd: pytest.CaptureFixture[str]
 ) -> None:
     folder = package("unlisted_reported", {"msg/Outer.msg": "Inner inner\n", "msg/Inner.msg": "int8 a\n"})

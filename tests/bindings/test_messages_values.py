@@ -53,7 +53,7 @@ def test_nanoseconds_that_are_not_quite_whole_are_truncated() -> None:
 
 
 @pytest.mark.parametrize("value", [150000000.00000003, 7.0009, -7.0009, 3])
-def test_nothing_is_said_of_less_than_a_thousandth(value: float) -> None:
+def test_nothing_is_reported_of_less_than_a_thousandth(value: float) -> None:
     assert codec.truncations("std_msgs/Int32", {"data": value}) is None
 
 

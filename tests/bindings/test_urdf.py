@@ -133,7 +133,7 @@ def test_what_urdf_cannot_describe_is_an_error() -> None:
         _ = bubblesim.Simulation("tricycle").object("/Room").urdf
 
 
-def test_the_program_prints_it_or_says_what_is_wrong() -> None:
+def test_the_program_prints_it_or_states_what_is_wrong() -> None:
     def run(*arguments: str) -> "subprocess.CompletedProcess[str]":
         command = [str(built("robot_description")), *arguments]
         return subprocess.run(command, cwd=REPOSITORY, capture_output=True, text=True, check=False)

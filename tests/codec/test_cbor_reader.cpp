@@ -122,9 +122,9 @@ TEST(CborCheck, RefusesWhatTheProtocolDoesNotHave) {
   EXPECT_EQ(refusal(hex("7f 61 61 ff")), "strings and bytes of unknown length are not supported");
   EXPECT_EQ(refusal(hex("1c")), "a length is malformed");
   EXPECT_EQ(refusal(hex("f0")), "a simple value is none of false, true and null");
-  EXPECT_EQ(refusal(hex("a1 80 01")), "a list or a table is the key of a table");
+  EXPECT_EQ(refusal(hex("a1 80 01")), "a list or a map is the key of a map");
   for (const char* digits : {"ff", "82 01 ff", "a1 ff 01", "a1 01 ff", "bf 01 ff"}) {
-    EXPECT_EQ(refusal(hex(digits)), "a list or a table ends without having begun") << digits;
+    EXPECT_EQ(refusal(hex(digits)), "a list or a map ends without having begun") << digits;
   }
 }
 
@@ -136,9 +136,9 @@ TEST(CborCheck, RefusesLengthsThatTheDataDoNotHave) {
 
 TEST(CborCheck, LimitsLevels) {
   EXPECT_EQ(refusal(repeated("\x81", 32) + '\x01'), "");
-  EXPECT_EQ(refusal(repeated("\x81", 33) + '\x01'), "more than 32 nested lists and tables");
-  EXPECT_EQ(refusal(repeated("\x9f", 1'000'000)), "more than 32 nested lists and tables");
-  EXPECT_EQ(refusal(repeated(hex("bf 61 61"), 100)), "more than 32 nested lists and tables");
+  EXPECT_EQ(refusal(repeated("\x81", 33) + '\x01'), "more than 32 nested lists and maps");
+  EXPECT_EQ(refusal(repeated("\x9f", 1'000'000)), "more than 32 nested lists and maps");
+  EXPECT_EQ(refusal(repeated(hex("bf 61 61"), 100)), "more than 32 nested lists and maps");
 }
 
 TEST(CborCheck, LimitsTheItemsOfAMessage) {
@@ -150,18 +150,18 @@ TEST(CborCheck, LimitsTheItemsOfAMessage) {
 
 TEST(CborCheck, LimitsTheEntriesOfAMap) {
   EXPECT_EQ(refusal(map_of(4096, true)), "");
-  EXPECT_EQ(refusal(map_of(4097, true)), "more than 4,096 entries in a table");
+  EXPECT_EQ(refusal(map_of(4097, true)), "more than 4,096 entries in a map");
 }
 
 // Integers can be chosen so that all collide in a dict of Python: 150,000 of them took half a minute.
-TEST(CborCheck, LimitsTheKeysThatAreNoTexts) {
+TEST(CborCheck, LimitsTheKeysThatAreNoStrings) {
   EXPECT_EQ(refusal(map_of(1000, false)), "");
-  EXPECT_EQ(refusal(map_of(1001, false)), "more than 1,000 keys of tables that are no strings");
+  EXPECT_EQ(refusal(map_of(1001, false)), "more than 1,000 keys of maps that are no strings");
   EXPECT_EQ(refusal(head(kList, 2) + repeated(map_of(501, false), 2)),
-            "more than 1,000 keys of tables that are no strings");
+            "more than 1,000 keys of maps that are no strings");
 }
 
-TEST(CborCheck, LimitsTheTextsButNotTheBytes) {
+TEST(CborCheck, LimitsTheStringsButNotTheBytes) {
   constexpr std::uint32_t kMost = 4 * 1024 * 1024;
   EXPECT_EQ(refusal(head(kMajorText, kMost) + std::string(kMost, 'a')), "");
   EXPECT_NE(refusal(head(kMajorText, kMost + 1) + std::string(kMost + 1, 'a')).find("more than 4 MiB of strings"),

@@ -95,7 +95,7 @@ TEST(WireView, DoesNotReadPastTheEnd) {
   EXPECT_EQ(view.left(), 3U);
 }
 
-TEST(WireView, SaysHowMuchIsMissing) {
+TEST(WireView, StatesHowMuchIsMissing) {
   WireView view(nullptr, 0);
   try {
     view.take(12);

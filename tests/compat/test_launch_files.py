@@ -68,7 +68,7 @@ def robot(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[RosCore, S
             yield core, call, log
 
 
-def test_a_launch_file_adds_its_robot_where_it_says(robot: tuple[RosCore, ServiceCaller, Path]) -> None:
+def test_a_launch_file_adds_its_robot_where_it_states(robot: tuple[RosCore, ServiceCaller, Path]) -> None:
     _, call, _ = robot
     pose = call("/gazebo/get_model_state", model_name="crate")["pose"]
     assert [pose["position"][axis] for axis in "xyz"] == pytest.approx([1, 2, 3])
@@ -118,7 +118,7 @@ def test_worlds_and_arguments_of_gazebo_are_understood(tmp_path: Path) -> None:
     assert command[2:] == ["--gazebo-compat", "--speed", "2", "--web", "--speed", "max", "__name:=gazebo"]
 
 
-def test_a_missing_world_is_an_error_that_says_where_it_was_searched(roscore: RosCore) -> None:
+def test_a_missing_world_is_an_error_that_states_where_it_was_searched(roscore: RosCore) -> None:
     run = subprocess.run(
         ["rosrun", "gazebo_ros", "gzserver", "worlds/nowhere.world"],
         env={**roscore.env, "GAZEBO_RESOURCE_PATH": "/tmp/mine"},

@@ -15,7 +15,7 @@ from bubblesim.controllers.planar_motion import Velocity
 DRIVE = DifferentialDrive(wheel_radius=0.1, track=0.4)
 
 
-def test_on_the_spot_the_wheels_turn_against_each_other() -> None:
+def test_in_place_the_wheels_turn_against_each_other() -> None:
     # A quarter turn per second moves each wheel along a quarter circle of radius 0.2 m.
     wheels = wheel_speeds(DRIVE, Velocity(0.0, math.pi / 2))
     assert (wheels.left, wheels.right) == pytest.approx((-math.pi, math.pi))

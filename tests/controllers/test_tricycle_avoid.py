@@ -59,7 +59,7 @@ def test_stops_after_a_second_of_silence() -> None:
     assert controller.stopped
 
 
-def test_says_only_once_that_it_stopped() -> None:
+def test_reports_only_once_that_it_stopped() -> None:
     controller = TricycleAvoid()
     controller.update(None, 2.0)
     assert controller.update(None, 2.0) is None

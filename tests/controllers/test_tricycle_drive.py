@@ -31,7 +31,7 @@ def test_backwards_to_the_left_steers_to_the_right() -> None:
 
 
 @pytest.mark.parametrize("angular", [0.5, -0.5])
-def test_turning_on_the_spot_steers_as_far_as_it_can(angular: float) -> None:
+def test_turning_in_place_steers_as_far_as_it_can(angular: float) -> None:
     wheel = front_wheel(TRICYCLE, Velocity(0.0, angular))
     assert wheel.steering == math.copysign(1.5, angular)
     assert wheel.speed == pytest.approx(0.5 * math.sin(1.5) / 0.3)
@@ -71,7 +71,7 @@ def test_the_wheel_that_gives_a_velocity_gives_that_velocity(forward: float, ang
     assert found.angular == pytest.approx(wanted.angular)
 
 
-def test_a_quarter_of_a_circle_ends_where_geometry_says() -> None:
+def test_a_quarter_of_a_circle_ends_where_geometry_puts_it() -> None:
     end = moved(Pose2D(), Velocity(linear=1.0, angular=0.5), dt=math.pi)
     assert (end.x, end.y, end.heading) == pytest.approx((2.0, 2.0, math.pi / 2))
 

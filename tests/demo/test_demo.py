@@ -77,7 +77,7 @@ def test_demo_ends_in_order_on_a_signal(number: signal.Signals, tmp_path: Path) 
     assert processes_with(f"ROS_MASTER_URI=http://localhost:{port}") == []
 
 
-def test_demo_says_why_the_simulator_ended(tmp_path: Path) -> None:
+def test_demo_states_why_the_simulator_ended(tmp_path: Path) -> None:
     process = demo(tmp_path, free_port(), "tricycel")
     output, _ = process.communicate(timeout=60)
     assert process.returncode == 1

@@ -96,7 +96,7 @@ def test_a_gps_measures_the_place_on_the_earth(peer: Peer) -> None:
     assert far["longitude"] - 13 == pytest.approx(2.0 / 68.68, rel=1e-3)
 
 
-def test_a_compass_feels_the_field_of_the_earth(peer: Peer) -> None:
+def test_a_compass_measures_the_field_of_the_earth(peer: Peer) -> None:
     # x is north, the field points down by 60 degrees, and the link faces west: north is on its right.
     field = peer.next("/magnetic", "sensor_msgs/MagneticField")
     felt = [field["magnetic_field"][axis] for axis in "xyz"]
@@ -119,7 +119,7 @@ def test_a_stereo_head_gives_a_picture_of_each_side(peer: Peer) -> None:
         assert matrix[3] == pytest.approx(-matrix[0] * baseline)
 
 
-def test_what_falls_feels_no_weight(peer: Peer) -> None:
+def test_what_falls_measures_no_weight(peer: Peer) -> None:
     imu = peer.next("/falling", "sensor_msgs/Imu", count=3)
     felt = [imu["linear_acceleration"][axis] for axis in "xyz"]
     assert imu["header"]["frame_id"] == "body"

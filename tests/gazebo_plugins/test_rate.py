@@ -36,7 +36,7 @@ def due_times(rate: Rate, clock: Clock, steps: int) -> list[float]:
         (1, 0.05, 10),
     ],
 )
-def test_in_ten_seconds_it_is_due_as_often_as_its_rate_says(hertz: float, step: float, expected: int) -> None:
+def test_in_ten_seconds_it_is_due_as_often_as_its_rate_asks_for(hertz: float, step: float, expected: int) -> None:
     clock = Clock(step)
     assert len(due_times(Rate(hertz, clock), clock, round(10 / step))) == expected
 

@@ -90,7 +90,7 @@ def of_one_step(
     return found[0]
 
 
-def test_it_drives_at_the_speed_that_a_twist_says(peer: Peer) -> None:
+def test_it_drives_at_the_speed_of_a_twist(peer: Peer) -> None:
     peer.next("/truth", "nav_msgs/Odometry")
     begin = time.time()
     peer.drive("/cmd_vel", 0.5, 0.0)
@@ -117,7 +117,7 @@ def test_it_turns_to_the_left_for_a_positive_twist(peer: Peer) -> None:
     assert truth(peer, odom)["twist"]["twist"]["angular"]["z"] == pytest.approx(1.0, rel=0.02)
 
 
-def test_its_transforms_say_what_its_odometry_says(peer: Peer) -> None:
+def test_its_transforms_equal_its_odometry(peer: Peer) -> None:
     odom, message = of_one_step(peer, "/tf", "tf2_msgs/TFMessage", lambda _: True, "the transforms of a step")
     assert [stamp(each) for each in peer.received("/tf")].count(stamp(odom)) == 1
     frames = {each["child_frame_id"]: each for each in message["transforms"]}
@@ -171,7 +171,7 @@ def test_its_pictures_come_compressed_too(peer: Peer) -> None:
     assert picture["data"].startswith(b"\xff\xd8"), "JPEG"
 
 
-def test_its_imu_feels_its_weight(peer: Peer) -> None:
+def test_its_imu_measures_its_weight(peer: Peer) -> None:
     imu = peer.next("/imu", "sensor_msgs/Imu", count=10)
     assert imu["header"]["frame_id"] == "base_link"
     felt = [imu["linear_acceleration"][axis] for axis in "xyz"]

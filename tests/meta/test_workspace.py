@@ -91,13 +91,13 @@ def test_add_message_reports_the_bad_lines_of_a_definition(tmp_path: Path, unbui
     assert f"error: my_robot/Cell: {tmp_path}/src/my_robot/msg/Cell.msg:1: Invalid" in result.stdout
 
 
-def test_add_message_says_when_there_is_nothing_to_build(unbuilt: Workspace) -> None:
+def test_add_message_states_when_there_is_nothing_to_build(unbuilt: Workspace) -> None:
     result = unbuilt.add_message("std_msgs/Bool")
     assert result.returncode == 1
     assert "is not in a catkin workspace" in result.stdout
 
 
-def test_add_message_says_how_the_build_failed(tmp_path: Path, unbuilt: Workspace) -> None:
+def test_add_message_states_how_the_build_failed(tmp_path: Path, unbuilt: Workspace) -> None:
     (tmp_path / ".catkin_workspace").touch()
     unbuilt.write("bubblesim/CMakeLists.txt", "nonsense(")
     result = unbuilt.add_message("std_msgs/Bool")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Turns on the spot."""
+"""Turns in place."""
 
 from bubblesim.navigation.driver import STANDING, Driver, turn, turn_towards
 
@@ -11,5 +11,5 @@ def test_a_turn_has_the_direction_of_the_angle_and_slows_down() -> None:
     assert turn(0.05, driver) == STANDING
 
 
-def test_a_robot_that_cannot_turn_on_the_spot_stands() -> None:
+def test_a_robot_that_cannot_turn_in_place_stands() -> None:
     assert turn(1.0, Driver(turning_radius=0.5)) == STANDING

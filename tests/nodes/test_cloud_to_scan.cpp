@@ -115,7 +115,7 @@ TEST(CloudToScan, LeavesOutWhatIsNoPoint) {
             std::vector<float>{kInf});
 }
 
-TEST(CloudToScan, TellsTheFarEndInsteadOfInfinityWhenAsked) {
+TEST(CloudToScan, MeasuresTheFarEndInsteadOfInfinityWhenAsked) {
   ScanShape shape = degrees(0, 10, 20);
   shape.range_max = 8.0;
   shape.use_inf = false;
@@ -123,7 +123,7 @@ TEST(CloudToScan, TellsTheFarEndInsteadOfInfinityWhenAsked) {
   EXPECT_EQ(ranges({}, shape), std::vector<float>{8.5F});
 }
 
-TEST(CloudToScan, TheMessageTellsItsShape) {
+TEST(CloudToScan, TheMessageHasItsShape) {
   ScanShape shape = degrees(-90, 90, 1);
   shape.scan_time = 0.1;
   shape.range_min = 0.2;
@@ -171,7 +171,7 @@ TEST(CloudToScan, RefusesCloudsThatItCannotRead) {
   refused(cloud);
 }
 
-TEST(ScanShape, TellsWhatNoFanCanBe) {
+TEST(ScanShape, StatesWhatNoFanCanBe) {
   const auto refused = [](auto change) {
     ScanShape shape;
     change(shape);

@@ -135,7 +135,7 @@ def test_of_a_client(tmp_path: Path, program: str, delay: float) -> None:
         ends_quietly(process, tmp_path / "log")
 
 
-def test_the_client_over_tcp_says_at_once_what_it_waits_for(tmp_path: Path) -> None:
+def test_the_client_over_tcp_states_at_once_what_it_waits_for(tmp_path: Path) -> None:
     with running(
         "tricycle_socket_client.py", ["--port", "PORT"], ros_environment(free_port(), tmp_path), tmp_path
     ) as process:

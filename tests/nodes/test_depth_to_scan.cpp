@@ -117,7 +117,7 @@ TEST(DepthToScan, RefusesWhatItCannotRead) {
   refused(good, sensor_msgs::CameraInfo(), {});
 }
 
-TEST(DepthBand, TellsWhatNoBandCanBe) {
+TEST(DepthBand, StatesWhatNoBandCanBe) {
   check(DepthBand{});
   for (const DepthBand& band : {DepthBand{0, 0.1, 0.4, 10.0}, DepthBand{1, -1.0, 0.4, 10.0},
                                 DepthBand{1, 0.1, -0.4, 10.0}, DepthBand{1, 0.1, 4.0, 4.0}})

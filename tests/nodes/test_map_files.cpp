@@ -54,7 +54,7 @@ TEST_F(MapFiles, TheDescriptionHasWhatMapServerWants) {
             "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
 }
 
-TEST_F(MapFiles, ThresholdsTellWallsFromFloor) {
+TEST_F(MapFiles, ThresholdsSeparateWallsFromFloor) {
   write_map(map_, folder_ / "room", {100, 0});
   EXPECT_EQ(content(folder_ / "room.pgm").substr(11), std::string("\xcd\xcd\xcd\xcd\xfe", 5) + std::string(1, '\0'));
 }
@@ -64,7 +64,7 @@ TEST_F(MapFiles, FoldersInTheWayAreMade) {
   EXPECT_TRUE(fs::exists(folder_ / "maps" / "of" / "today.yaml"));
 }
 
-TEST_F(MapFiles, WhatCannotBeWrittenIsTold) {
+TEST_F(MapFiles, WhatCannotBeWrittenIsReported) {
   std::ofstream(folder_ / "file") << "no folder";
   EXPECT_THROW(write_map(map_, folder_ / "file" / "map"), std::runtime_error);
   EXPECT_THROW(write_map(map_, folder_ / ""), std::runtime_error);

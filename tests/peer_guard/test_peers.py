@@ -166,7 +166,7 @@ def test_nodes_in_python_listen_as_those_in_cpp(
 
 
 @pytest.mark.parametrize("addresses", [["127.0.1.1"], ["127.0.0.1", "192.0.2.7"]], ids=["only here", "several"])
-def test_a_name_that_says_no_one_address_opens_all(core: RosCore, tmp_path: Path, addresses: list[str]) -> None:
+def test_a_name_without_one_address_opens_all(core: RosCore, tmp_path: Path, addresses: list[str]) -> None:
     hosts = write(
         tmp_path / "hosts", "127.0.0.1 localhost\n" + "".join(f"{each} robot.example\n" for each in addresses)
     )

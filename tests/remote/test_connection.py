@@ -27,7 +27,7 @@ def test_bubblesim_connect_has_typed_results(node: RemoteNode) -> None:
     other.wait(0.5)  # the connection has ended its stepping
 
 
-def test_bubblesim_connect_says_that_nobody_answers() -> None:
+def test_bubblesim_connect_reports_that_no_server_answers() -> None:
     port = free_port()
     with pytest.raises(TimeoutError, match=f"no answer from 127.0.0.1:{port}"):
         bubblesim.connect(port, timeout=0.2)

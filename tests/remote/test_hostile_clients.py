@@ -83,7 +83,7 @@ def test_costly_messages_are_refused_at_once(node: RemoteNode) -> None:
     sim = node.sim()
     begin = b"\xa3\x64func\x67sim.any\x64uuid\x61u\x64args\x81"
     costly = {
-        # 150,000 keys in a table. Such integers can be chosen so that all of them collide.
+        # 150,000 keys in a map. Such integers can be chosen so that all of them collide.
         "more than 1,000 keys": b"\xba"
         + struct.pack(">I", 150_000)
         + b"".join(b"\x1a%b\x00" % struct.pack(">I", i) for i in range(150_000)),
@@ -175,7 +175,7 @@ def test_waits_for_wall_time_need_no_thread_each_and_end_in_their_order(node: Re
         peer.close()
 
 
-def test_the_names_of_one_connection_do_not_drive_out_other_clients(node: RemoteNode) -> None:
+def test_the_names_of_one_connection_do_not_evict_other_clients(node: RemoteNode) -> None:
     sim = node.sim()
     sim.setStepping(True)
     peer = node.raw()

@@ -105,7 +105,7 @@ def test_a_braitenberg_vehicle_roams_the_room_without_touching_anything(room: An
     assert np.ptp(np.array(path)[:, 2]) < 0.01
 
 
-def test_wheels_move_it_as_its_data_say(floor: Any) -> None:
+def test_wheels_move_it_as_its_data_describe(floor: Any) -> None:
     robot, left, right = (floor.getObject(f"/PioneerP3DX{part}") for part in ("", "/leftMotor", "/rightMotor"))
     floor.setStepping(True)
     floor.startSimulation()

@@ -70,7 +70,7 @@ def test_a_changed_message_is_decoded_or_refused(value: object, place: int, byte
         ({"func": "f", "args": [cbor2.CBORTag(1, 5)]}, "tagged values are not supported"),
     ],
 )
-def test_a_refusal_says_why(message: object, reason: str) -> None:
+def test_a_refusal_states_why(message: object, reason: str) -> None:
     assert reason in refusal(cbor2.dumps(message))
 
 

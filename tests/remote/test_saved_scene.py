@@ -194,7 +194,7 @@ def test_copies_of_the_files_models_and_models_that_stand_still_are_in_the_file(
         again.object("/Tricycle")
 
 
-def test_what_a_file_cannot_say_is_an_error(tmp_path: Path) -> None:
+def test_what_a_file_cannot_contain_is_an_error(tmp_path: Path) -> None:
     simulation = Simulation("ball")
     ball = simulation.world.find("/Ball", -1)
     file = tmp_path / "saved.sdf"

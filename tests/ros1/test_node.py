@@ -22,7 +22,7 @@ def test_node_is_listed_under_its_name(roscore: RosCore) -> None:
         assert NAME in roscore.run("rosnode", "list").split()
 
 
-def test_start_says_where_it_connected(roscore: RosCore) -> None:
+def test_start_states_where_it_connected(roscore: RosCore) -> None:
     with Probe(roscore.env) as probe:
         expected = f"plugin 'ROSInterface': load succeeded: node {NAME} at ROS master http://localhost:{roscore.port}"
         probe.wait_for(lambda: expected in probe.errors, "the line")

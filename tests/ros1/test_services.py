@@ -176,7 +176,7 @@ def test_type_of_an_own_service_is_named(roscore: RosCore) -> None:
         assert probe.ask("call", client, 5) == "! service '/paint' is of type std_srvs/SetBool, not std_srvs/Trigger"
 
 
-def test_call_without_a_master_says_so(tmp_path: Path) -> None:
+def test_call_without_a_master_reports_that(tmp_path: Path) -> None:
     port = free_port()
     with Probe(ros_environment(port, tmp_path)) as probe:
         client = probe.ask("client", "/paint", "setbool")

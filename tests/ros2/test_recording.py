@@ -101,7 +101,7 @@ def test_what_was_recorded_before_a_kill_is_readable(ros2_domain: Domain, tmp_pa
     assert last - 1.1 < numbers[-1] <= last + 0.06
 
 
-def test_with_both_the_file_says_which_side_is_recorded(roscore: RosCore, ros2_domain: Domain, tmp_path: Path) -> None:
+def test_with_both_the_file_states_which_is_recorded(roscore: RosCore, ros2_domain: Domain, tmp_path: Path) -> None:
     script = write(
         tmp_path / "script.py",
         """

@@ -65,7 +65,7 @@ def test_messages_that_are_broken_are_dropped(ros2_domain: Domain, ros2_peer: Ro
         broken.append(bytes(changed))
     broken += [b"\0\1\0\0" + chance.randbytes(chance.randrange(200)) for _ in range(200)]
     with node_with(ros2_domain, tmp_path) as node:
-        ros2_peer.say_bytes("/joints", "sensor_msgs/msg/JointState", [*broken, whole])
+        ros2_peer.send_bytes("/joints", "sensor_msgs/msg/JointState", [*broken, whole])
         node.wait_for_output("warning: dropped a message on '/joints': MessageError: sensor_msgs/JointState: ")
         ros2_peer.publish("/joints", "sensor_msgs/msg/JointState", {"name": ["the", "end"]})
         node.wait_for_output("joints ['the', 'end']")

@@ -63,7 +63,7 @@ def test_a_script_calls_ros2(ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path:
     assert ros2_peer.requests("/switch") == [{"data": True}, {"data": False}]
 
 
-def test_services_that_are_not_there_or_of_another_type_say_so(
+def test_services_that_are_not_there_or_of_another_type_are_reported(
     ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path: Path
 ) -> None:
     ros2_peer.serve("/switch", SET_BOOL, success=True)

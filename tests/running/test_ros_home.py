@@ -26,12 +26,17 @@ def test_a_home_that_cannot_be_written_is_named(tmp_path: Path, name: str) -> No
     read_only = ["unshare", "--map-root-user", "--mount", "bash", "-c", mount, "bash"]
     if subprocess.run([*read_only, "true"], check=False).returncode:
         pytest.skip("this user may not mount anything")
-    environment = {name: value for name, value in os.environ.items() if name not in ("ROS_HOME", "ROS_LOG_DIR")}
-    environment |= {"HOME": str(home), "ROS_MASTER_URI": f"http://localhost:{free_port()}"}
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    of_user = ("ROS_HOME", "ROS_LOG_DIR", "XDG_RUNTIME_DIR")
+    environment = {name: value for name, value in os.environ.items() if name not in of_user}
+    environment |= {"HOME": str(home), "ROS_MASTER_URI": f"http://localhost:{free_port()}", "TMPDIR": str(temporary)}
     run = subprocess.run(
         [*read_only, *COMMANDS[name]], env=environment, cwd=tmp_path, capture_output=True, text=True, check=False
     )
     assert run.returncode == 0, run.stdout + run.stderr
-    assert f"info: {home}/.ros cannot be written (Read-only file system): ROS keeps its files in " in run.stderr
+    (instead,) = temporary.glob("bubblesim*")  # one folder for all programs of a user
+    info = f"info: {home}/.ros cannot be written (Read-only file system): ROS keeps its files in {instead}\n"
+    assert info in run.stderr
     assert "Traceback" not in run.stdout + run.stderr
     assert "cannot be written to a file" not in run.stderr

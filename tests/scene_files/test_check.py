@@ -52,6 +52,25 @@ def test_a_problem_ends_with_two_after_all_files_were_looked_at(
     assert lines[-1] == "ball: fine"
 
 
+@pytest.mark.parametrize(("lines", "summary"), [(1, "1 warning"), (2, "2 warnings")])
+def test_warnings_are_counted(tmp_path: Path, capfd: pytest.CaptureFixture[str], lines: int, summary: str) -> None:
+    unknown = ['<plugin name="p" filename="libunheard_of.so"/>', "<unknown_element/>"][:lines]
+    file = written(tmp_path, BAD.split("<collision")[0] + f"</link>{' '.join(unknown)}</model></sdf>")
+    assert main([file]) == 0
+    output, warnings = capfd.readouterr()
+    assert output == f"{file}: {summary}\n"
+    assert warnings.count("warning: ") == lines
+
+
+def test_a_model_that_falls_out_of_the_scene_is_a_warning(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    falling = '<model name="stone"><pose>0 0 -998 0 0 0</pose><link name="link"/></model>'
+    file = written(tmp_path, f'<sdf version="1.9"><world name="w"><gravity>0 0 -9000</gravity>{falling}</world></sdf>')
+    assert main([file]) == 0
+    output, warnings = capfd.readouterr()
+    assert "/stone fell below the scene" in warnings
+    assert output == f"{file}: {warnings.count('warning: ')} warning\n"
+
+
 def test_the_program_runs() -> None:
     program = REPOSITORY / "scripts" / "check"
     run = subprocess.run(["python3", program, "ball"], capture_output=True, text=True, check=True)

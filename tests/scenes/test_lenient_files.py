@@ -151,7 +151,7 @@ def inertia(ixx: float, iyy: float, izz: float) -> str:
         ),
     ],
 )  # fmt: skip
-def test_one_warning_says_what_is_taken(load: Load, text: str, warning: str) -> None:
+def test_one_warning_states_what_is_taken(load: Load, text: str, warning: str) -> None:
     assert load(text)[1] == [f"warning: {warning}"]
 
 

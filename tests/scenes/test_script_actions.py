@@ -126,7 +126,7 @@ def actionlib_server(core: RosCore) -> Iterator[None]:
         stop(process)
 
 
-def test_goals_end_as_the_serving_script_says(script: Script, roscore: RosCore) -> None:
+def test_goals_end_as_the_serving_script_decides(script: Script, roscore: RosCore) -> None:
     script(SERVER_SCRIPT)
     run_client(
         roscore,

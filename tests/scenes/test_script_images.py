@@ -68,7 +68,7 @@ def test_compressed_images_are_jpeg_by_default(script: Script, roscore: RosCore)
     np.testing.assert_allclose(pixels[inside], FIELDS[inside], atol=8)
 
 
-def test_compressed_images_are_png_where_the_parameter_says_so(script: Script, roscore: RosCore) -> None:
+def test_compressed_images_are_png_where_the_parameter_asks_for_it(script: Script, roscore: RosCore) -> None:
     roscore.set_param("/camera/compressed/format", "png")
     roscore.set_param("/camera/compressed/png_level", 11)
     node = script(PUBLISH)

@@ -249,7 +249,7 @@ def test_the_client_drives_until_it_is_interrupted_and_stops_the_tricycle(tmp_pa
             stop(process)
 
 
-def test_the_client_says_when_there_is_no_simulation() -> None:
+def test_the_client_states_when_there_is_no_simulation() -> None:
     run = subprocess.run(client_program(free_port()), capture_output=True, text=True, timeout=60, check=False)
     assert run.returncode == 1
     assert "start `rosrun bubblesim sim tricycle_socket`" in run.stderr

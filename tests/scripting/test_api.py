@@ -124,7 +124,7 @@ MODULES = {"sim": SimApi, "simROS": SimRos, "simROS2": SimRos2}
     "function",
     [pytest.param(f, id=f"{name}.{f.name}") for name, module in MODULES.items() for f in functions(module)],
 )
-def test_every_function_says_what_it_does(function: object) -> None:
+def test_every_function_states_what_it_does(function: object) -> None:
     assert function.doc.strip()  # type: ignore[attr-defined]
     assert all(p.annotation is not inspect.Parameter.empty for p in function.signature.parameters.values())  # type: ignore[attr-defined]
 

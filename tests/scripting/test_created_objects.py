@@ -118,7 +118,7 @@ near(half, [1, 0, 0, 0, 0, math.sqrt(0.5), math.sqrt(0.5)])
     check(tmp_path, body)
 
 
-def test_parameters_say_what_they_are(tmp_path: Path) -> None:
+def test_parameters_state_what_they_are(tmp_path: Path) -> None:
     body = """
 assert sim.getInt32Param(sim.intparam_program_version) >= 40500
 assert sim.getStringParam(sim.stringparam_scene_name) == 'tricycle'

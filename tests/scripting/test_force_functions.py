@@ -141,7 +141,7 @@ def test_an_unsigned_force_has_the_direction_of_the_target_velocity(tmp_path: Pa
         ("sim.setObjectInt32Param(sim.getObject('.'), 2039, 1)", "not a joint"),
     ],
 )
-def test_wrong_calls_say_what_is_wrong(tmp_path: Path, call: str, message: str) -> None:
+def test_wrong_calls_name_what_is_wrong(tmp_path: Path, call: str, message: str) -> None:
     scene = str(write(tmp_path / "scene.sdf", SCENE))
     done = run_script(tmp_path, f"def sysCall_init(): {call}\n", scene=scene, target="/Body")
     assert message in done.stderr

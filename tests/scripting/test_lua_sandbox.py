@@ -248,7 +248,7 @@ def test_the_programs_of_this_test_exist() -> None:
     assert built("rosBubbleRob").is_file()
 
 
-def test_a_script_in_lua_may_end_the_simulator_as_sim_says(tmp_path: Path) -> None:
+def test_a_script_in_lua_may_end_the_simulator_as_sim_allows(tmp_path: Path) -> None:
     code = "function sysCall_init() end\nfunction sysCall_actuation() sim.quitSimulator() end\n"
     run = run_script(tmp_path, code, name="script.lua", until=1000.0)
     assert run.returncode == 0

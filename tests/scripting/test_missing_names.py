@@ -20,7 +20,7 @@ def failure(folder: Path, code: str, name: str = "script.py") -> str:
     return run.stderr
 
 
-def test_without_ros_the_first_use_of_simros_says_why(tmp_path: Path) -> None:
+def test_without_ros_the_first_use_of_simros_states_why(tmp_path: Path) -> None:
     reported = failure(tmp_path, "def sysCall_init():\n    simROS.advertise('/t', 'std_msgs/Float32')\n")
     assert f"simROS.advertise: {NO_ROS}" in reported
     assert "script.py:2" in reported
@@ -37,7 +37,7 @@ def test_without_ros_simros_is_false(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("begin", ["", "simROS = require 'simROS'\n", "local simROS = require 'simROS'\n"])
-def test_without_ros_the_first_use_of_simros_in_lua_says_why(tmp_path: Path, begin: str) -> None:
+def test_without_ros_the_first_use_of_simros_in_lua_states_why(tmp_path: Path, begin: str) -> None:
     code = begin + "function sysCall_init()\n  simROS.advertise('/t', 'std_msgs/Float32')\nend\n"
     reported = failure(tmp_path, code, "script.lua")
     assert f"script.lua:{2 + begin.count(chr(10))}: {NO_ROS}" in reported

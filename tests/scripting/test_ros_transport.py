@@ -24,7 +24,7 @@ def test_hints_are_read(given: Any, read: TransportHints) -> None:
 @pytest.mark.parametrize(
     ("given", "reported"),
     [
-        ("tcp", "transport hints must be a table, found str 'tcp'"),
+        ("tcp", "transport hints must be a dict, found str 'tcp'"),
         ({"tcpNodelay": True}, "have no 'tcpNodelay'; valid keys: transports, tcpNoDelay, maxDatagramSize"),
         ({"tcpNoDelay": "yes"}, "tcpNoDelay must be true or false, found str 'yes'"),
         ({"transports": 5}, "transports must be a list, found int 5"),

@@ -253,7 +253,7 @@ def test_what_a_launched_program_has_started_ends_with_it(tmp_path: Path) -> Non
     wait_until(lambda: processes_with(f"sleep {mark}") == [], "the end of what the program has started")
 
 
-def test_logs_go_where_their_level_says(tmp_path: Path) -> None:
+def test_logs_go_where_their_level_belongs(tmp_path: Path) -> None:
     code = """
         def sysCall_init():
             sim.addLog(sim.verbosity_scripterrors, 'an error')

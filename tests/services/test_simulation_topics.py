@@ -39,7 +39,7 @@ def received_steps(remote: Remote) -> tuple[int, int]:
     return len(remote.received(TIME)), len(remote.received(DONE))
 
 
-def test_each_trigger_gives_one_pass_and_each_pass_says_that_it_is_done(run: Run, roscore: RosCore) -> None:
+def test_each_trigger_gives_one_step_and_each_step_reports_that_it_is_done(run: Run, roscore: RosCore) -> None:
     node, remote = run(COUNTING, "--speed", "5", "--paused", subscribe=SUBSCRIBE)
     free = enter_synchronous_mode(roscore, node, remote)
     remote.send("/triggerNextStep", value=False, count=100)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A tricycle, which cannot turn on the spot, drives round the obstacles in its room on a map from files."""
+"""A tricycle, which cannot turn in place, drives round the obstacles in its room on a map from files."""
 
 import subprocess
 from collections.abc import Iterator

@@ -83,10 +83,10 @@ class Ros2Peer(PeerProcess):
         """Publish once the topic has a subscriber."""
         self._send(do="publish", topic=topic, type=message_type, message=message, qos=qos)
 
-    def say_bytes(self, topic: str, message_type: str, data: list[bytes]) -> None:
+    def send_bytes(self, topic: str, message_type: str, data: list[bytes]) -> None:
         """Publish serialized messages once the topic has a subscriber."""
         encoded = [base64.b64encode(each).decode() for each in data]
-        self._send(do="say_bytes", topic=topic, type=message_type, data=encoded)
+        self._send(do="send_bytes", topic=topic, type=message_type, data=encoded)
 
     def stop(self) -> None:
         """Stop the process, as a debugger does."""

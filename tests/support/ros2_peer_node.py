@@ -104,7 +104,7 @@ class Peer:
             time.sleep(0.01)
         self.publishers[topic].publish(fill(type_of(type)(), message))
 
-    def say_bytes(self, topic: str, type: str, data: list[str]) -> None:  # noqa: A002
+    def send_bytes(self, topic: str, type: str, data: list[str]) -> None:  # noqa: A002
         publisher = self.node.create_publisher(type_of(type), topic, 100)
         while publisher.get_subscription_count() == 0:
             time.sleep(0.01)

@@ -65,7 +65,7 @@ struct Run : testing::Test {
     witness.runner = runner.get();
   }
 
-  /// Returns when the runner's loop, on its thread, has gone round a few times: what was due has been done.
+  /// Returns when the runner's loop, on its thread, has run a few times: what was due has been done.
   void let_it_go_round() const {
     for (int rounds = 0; rounds < 3; ++rounds) runner->call([] {}).get();
   }

@@ -44,7 +44,7 @@ def test_dragging_drives_and_releasing_stops(display: Display, roscore: RosCore,
     received.close()
 
 
-def test_without_a_display_it_says_so(roscore: RosCore) -> None:
+def test_without_a_display_it_reports_that(roscore: RosCore) -> None:
     env = {**roscore.env, "DISPLAY": ""}
     run = subprocess.run(NODE, env=env, capture_output=True, text=True, timeout=3 * DEADLINE, check=False)
     assert run.returncode == 2

@@ -80,7 +80,7 @@ def test_the_end_stops_the_robot_and_leaves_the_terminal_as_it_was(roscore: RosC
     terminal.close()
 
 
-def test_without_a_terminal_it_says_so(roscore: RosCore) -> None:
+def test_without_a_terminal_it_reports_that(roscore: RosCore) -> None:
     run = subprocess.run(
         NODE, env=roscore.env, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60, check=False
     )

@@ -206,7 +206,7 @@ def test_a_controller_that_falls_silent_is_reported(ten: str, controller: StartC
     assert tricycle.time == pytest.approx(0.6)
 
 
-def test_a_controller_that_ends_is_reported_with_its_last_words(
+def test_a_controller_that_ends_is_reported_with_its_last_output(
     tmp_path: Path, controller: StartController, sim: StartSimulator
 ) -> None:
     code = ANSWERS_TEN.format(then="rospy.signal_shutdown('enough')")

@@ -38,7 +38,7 @@ def wait_for_connection(page: Page) -> None:
     wait_until(lambda: is_connected(page), "the connection", timeout=TIMEOUT / 1000)
 
 
-def test_a_page_without_the_token_says_what_it_needs(server: Server, page: Page) -> None:
+def test_a_page_without_the_token_states_what_it_needs(server: Server, page: Page) -> None:
     for address in (f"{server.origin}/", f"{server.origin}/#token=wrong", f"{server.origin}/?token=t"):
         page.goto("about:blank")
         page.goto(address)

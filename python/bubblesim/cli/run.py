@@ -80,7 +80,7 @@ def _run_with_programs(options: argparse.Namespace, node: list[str]) -> int:
     with contextlib.ExitStack() as stack:
         logs = stack.enter_context(tempfile.TemporaryDirectory(prefix="bubblesim-run-"))
         programs = stack.enter_context(Programs(Path(logs)))
-        use_writable_ros_home(Path(logs))
+        use_writable_ros_home()
         if not options.roscore:
             require_master()
         elif provide_master(programs, stop):

@@ -8,7 +8,7 @@ from typing import Any
 
 _DESCRIPTION = """\
 Opens the window of a simulation in the browser, beside a node that was started with --remote or --web. Prints the
-address. It carries a token: who has it can run programs as you (with --read-only: can see it).
+address. It carries a token: anyone who has it can run programs as you (with --read-only: can see it).
 
 What is not printed to a terminal has no token: there, open the file that is named. BUBBLESIM_WEB_TOKEN sets the token.
 

@@ -19,6 +19,11 @@ class UnknownPlugins:
         """Nothing is reported yet."""
         self._warned: set[tuple[str, str, int]] = set()
 
+    @property
+    def warned(self) -> int:
+        """The number of warnings so far."""
+        return len(self._warned)
+
     def report(self, plugin: Any) -> None:
         """Warn about a plugin that is not supported and has an effect in Gazebo."""
         name = library(plugin.filename)
@@ -43,11 +48,12 @@ def plugins_below(world: Any, handle: int) -> Iterator[tuple[int, Any]]:
             yield part, plugin
 
 
-def report_unknown_plugins(simulation: Any) -> None:
-    """Warn about all unsupported plugins of a simulation."""
+def report_unknown_plugins(simulation: Any) -> int:
+    """Warn about all unsupported plugins of a simulation; return the number of warnings."""
     unknown = UnknownPlugins()
     for plugin in simulation.plugins:
         unknown.report(plugin)
     for model in simulation.world.models:
         for _, plugin in plugins_below(simulation.world, model):
             unknown.report(plugin)
+    return unknown.warned

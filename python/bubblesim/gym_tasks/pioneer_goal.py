@@ -87,7 +87,7 @@ class PioneerGoal(Task):
         return np.column_stack([seen, distances / 10.0, np.cos(bearings), np.sin(bearings), forward, velocity[:, 5]])
 
     def judge(self, rows: Array) -> tuple[Array, Array, dict[str, Array]]:
-        """Return the progress, and the rewards of the ends."""
+        """Return the progress as the reward, and 10 more at the goal, 10 less at a collision."""
         distances, _ = self._goal_seen(rows)
         success = distances < REACHED
         collision = (rows[:, RAYS + 13] > 0) & ~success

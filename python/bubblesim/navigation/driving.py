@@ -24,7 +24,7 @@ from bubblesim.navigation.planar import Point, placed, seen_from
 
 OBSTACLE_RANGE = 3.0  # m: obstacles of the scan within this distance are used for planning
 REPLAN = 1.0  # s, minimum time between plans
-TURN_FIRST = math.radians(60.0)  # a robot that can turns on the spot to a path that is further aside
+TURN_FIRST = math.radians(60.0)  # a robot turns in place first, if it can, to a path that is further aside
 SHORTEST = 0.1  # m that must be free on an arc
 BACKING_SPEED = 0.2  # m/s
 BACKING_TIME = 1.5  # s
@@ -64,7 +64,7 @@ class Driving:
         self._backing_until = -math.inf  # s
 
     def start(self, goal: Point, now: float, heading: float | None = None) -> None:
-        """Start driving to a goal. Only robots that can turn on the spot turn to a heading."""
+        """Start driving to a goal. Only robots that can turn in place turn to a heading."""
         self.goal = goal
         self.heading = heading
         self.path = []

@@ -23,7 +23,7 @@ Array = npt.NDArray[np.float64]
 CELL = 0.02  # m, of the distance field
 STEP = 0.05  # m along an arc between the poses that are checked
 CURVES = 41  # number of arcs
-TIGHTEST = 0.15  # m, radius of the tightest arc of robots that turn on the spot
+TIGHTEST = 0.15  # m, radius of the tightest arc of robots that turn in place
 MARGIN = 0.02  # m, minimum distance of robot and obstacles
 
 
@@ -43,7 +43,7 @@ class Body:
 
     @property
     def reach(self) -> float:
-        """Return the radius of the circle that the body sweeps in a turn on the spot."""
+        """Return the radius of the circle that the body sweeps in a turn in place."""
         return max(map(abs, self.centres)) + self.radius
 
 
@@ -140,7 +140,7 @@ def speed_on(arc: Arc, driver: Driver, remaining: float) -> float:
 
 
 def can_turn(distances: DistanceField, body: Body, angle: float) -> bool:
-    """Return whether the body can turn on the spot by an angle, rad."""
+    """Return whether the body can turn in place by an angle, rad."""
     headings = np.linspace(0.0, angle, max(int(abs(angle) / 0.1), 1) + 1, dtype=np.float64)[1:]
     zeros = np.zeros_like(headings)
     here = float(clearance(distances, body, np.zeros(1), np.zeros(1), np.zeros(1))[0])

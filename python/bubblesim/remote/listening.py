@@ -27,7 +27,7 @@ def listen(
     try:
         _bind(socket, address, port, path)
         if port is not None:
-            _say_who_can_connect(socket.getsockopt_string(zmq.LAST_ENDPOINT).rstrip("\0"), address, wants_token)
+            _log_who_can_connect(socket.getsockopt_string(zmq.LAST_ENDPOINT).rstrip("\0"), address, wants_token)
     except BaseException:
         socket.close(0)
         context.term()
@@ -55,7 +55,7 @@ def _bind(socket: zmq.Socket[bytes], address: str, port: int | None, path: str) 
         raise RuntimeError(f"cannot listen on {where}: {reason}; another port: --remote=PORT") from None
 
 
-def _say_who_can_connect(where: str, address: str, wants_token: bool) -> None:
+def _log_who_can_connect(where: str, address: str, wants_token: bool) -> None:
     write_line(sys.stderr, f"info: remote clients can connect to {where}")
     if is_loopback(address):
         if not wants_token:

@@ -91,7 +91,7 @@ class Requests:
             self._calls.begin(connection, partial(carry_out, request, self._clients.sim_of(request.uuid), client))
 
     def _register(self, connection: ClientConnection, request: protocol.Request) -> None:
-        """Note who has sent a request that is answered already."""
+        """Note which client has sent a request that is answered already."""
         connection.has_token = connection.has_token or self.has_token(request)
         if request.function != _TOKEN:
             self._clients.client_of(connection, request.uuid, request.timeout)

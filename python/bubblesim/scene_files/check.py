@@ -13,7 +13,7 @@ from bubblesim.gazebo_plugins.unknown_plugins import report_unknown_plugins
 DESCRIPTION = """\
 Loads scenes and models (SDFormat, URDF, xacro), runs each for one second of simulated time and prints all problems
 as FILE:LINE: OBJECT: PROBLEM."""
-EPILOG = "exit codes: 0 no problems, 2 problems found"
+EPILOG = "exit codes: 0 no problems, also with warnings, 2 problems found"
 
 _SECONDS = 1.0  # simulated time for which each scene is run
 
@@ -23,19 +23,33 @@ def problems_of(scene: str, arguments: Mapping[str, str] | None = None) -> list[
 
     A .xacro file is expanded with the ``arguments``. Warnings about ignored elements are written to stderr.
     """
+    return _findings(scene, arguments or {})[0]
+
+
+def _findings(scene: str, arguments: Mapping[str, str]) -> tuple[list[str], int]:
+    """Return the problems of a scene, and the number of warnings that were written if there are none."""
     try:
-        simulation = bubblesim.Simulation(scene, arguments=dict(arguments or {}))
-        report_unknown_plugins(simulation)
+        simulation = bubblesim.Simulation(scene, arguments=dict(arguments))
+        warnings = len(simulation.scene.warnings) + report_unknown_plugins(simulation)
+        models = len(simulation.world.models)
         simulation.step(max(1, round(_SECONDS / simulation.time_step)))
     except bubblesim.SceneError as error:
-        return str(error).splitlines()
+        return str(error).splitlines(), 0
     except (bubblesim.Diverged, ValueError) as error:
-        return [f"{scene}: {error}"]
-    return []
+        return [f"{scene}: {error}"], 0
+    fallen = models - len(simulation.world.models)
+    return [], warnings + fallen
+
+
+def _summary(warnings: int) -> str:
+    if warnings == 0:
+        return "fine"
+    return f"{warnings} warning{'s' if warnings > 1 else ''}"
 
 
 def check(scenes: Sequence[str]) -> int:
-    """Print the problems of each scene, or that it has none; return the exit code: 2 if there are problems, else 0.
+    """Print the problems of each scene, or how many warnings it has; return the exit code: 2 if there are problems,
+    else 0.
 
     Items of the form NAME:=VALUE are arguments of the .xacro files.
     """
@@ -45,8 +59,8 @@ def check(scenes: Sequence[str]) -> int:
         raise ValueError(f"{next(iter(arguments))}:= is an argument of .xacro files, but no .xacro file is given")
     code = 0
     for scene in scenes:
-        problems = problems_of(scene, arguments)
-        for line in problems or [f"{scene}: fine"]:
+        problems, warnings = _findings(scene, arguments)
+        for line in problems or [f"{scene}: {_summary(warnings)}"]:
             print(line, flush=True)
         if problems:
             code = 2

@@ -83,7 +83,9 @@ class Journal:
             return
         found = self._parsed(lines[0], 1)
         if found != header:
-            what = "was written for another text of the program" if found.get("format") == _FORMAT else "is no journal"
+            what = (
+                "was written by another version of the program" if found.get("format") == _FORMAT else "is no journal"
+            )
             raise SweepError(f"{self.file} {what}; choose another --output, or start again with --fresh")
         for number, line in enumerate(lines[1:], 2):
             entry = self._parsed(line, number)

@@ -92,7 +92,7 @@ def _is_number(text: str) -> bool:
 
 
 def _of_one_type(strings: Sequence[str]) -> list[Value]:
-    """Convert to int, if one is no int to float, and if one is no number to text: columns of a table have one type."""
+    """Convert all to int, or all to float, or leave them as strings: columns of a table have one type."""
     if not all(map(_is_number, strings)):
         return list(strings)
     whole = all(re.fullmatch(r"[+-]?\d+", text) for text in strings)

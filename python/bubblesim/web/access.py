@@ -46,7 +46,7 @@ class Access:
     """
 
     def __init__(self, address: str, connections: Connections, token: str = "") -> None:
-        """Make a token, unless one is given. Nobody is let in before the ``port`` is known.
+        """Make a token, unless one is given. No page is let in before the ``port`` is known.
 
         :param address: on which the server listens.
         """

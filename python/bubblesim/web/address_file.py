@@ -12,6 +12,8 @@ import os
 import tempfile
 from pathlib import Path
 
+from bubblesim.running.ros_home import ros_home
+
 _PAGE = """\
 <!doctype html>
 <meta charset="utf-8" />
@@ -28,10 +30,7 @@ def write_address(address: str, port: int) -> Path:
     :raises OSError: if it cannot be written.
     """
     folder = _folder()
-    try:
-        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-    except OSError:  # a home that cannot be written
-        folder = Path(tempfile.mkdtemp(prefix="bubblesim-"))
+    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     number, name = tempfile.mkstemp(dir=folder, prefix=".window-")  # its mode is 0600
     try:
         with os.fdopen(number, "w", encoding="utf-8") as stream:
@@ -56,4 +55,4 @@ def _folder() -> Path:
     runtime = os.environ.get("XDG_RUNTIME_DIR", "")
     if Path(runtime).is_absolute() and os.access(runtime, os.W_OK):  # after su it may be that of another user
         return Path(runtime) / "bubblesim"
-    return Path(os.environ.get("ROS_HOME") or Path.home() / ".ros") / "bubblesim"
+    return ros_home() / "bubblesim"

@@ -65,7 +65,7 @@ class Recording:
         self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, start_new_session=True)
         try:
             await self._wait_for(file)
-        except asyncio.CancelledError:  # the page has closed: nobody knows of this recording
+        except asyncio.CancelledError:  # the page has closed: no page knows of this recording
             self.close()
             raise
         self._file = file

@@ -10,7 +10,7 @@ from __future__ import annotations
 import asyncio
 from typing import cast
 
-MOST_WAITING = 64  # connections that nobody has accepted yet
+MOST_WAITING = 64  # connections that are not accepted yet
 _MOST_PAGES = 40  # with the token; each has up to 17 descriptors
 _MOST_OTHERS = 120  # and for a moment twice MOST_WAITING more: asyncio accepts all that wait before it closes one
 _MOST_BYTES = 64 * 1024  # from a connection without the token

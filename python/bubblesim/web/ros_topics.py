@@ -84,7 +84,7 @@ def _class_of(topic: str) -> Any:
     node()
     found, _, _ = rostopic.get_topic_class(topic)
     if found is None:
-        raise ValueError(f"the type of the topic {topic} is not known: nobody publishes it")
+        raise ValueError(f"the type of the topic {topic} is not known: no node publishes it")
     return found
 
 
@@ -136,7 +136,7 @@ class Watch:
 
 
 class Driver:
-    """Publishes the velocities of one page, and zero when the page is silent: nobody drives a robot any more."""
+    """Publishes the velocities of one page, and zero when the page is silent, so that the robot stops."""
 
     def __init__(self, topic: str) -> None:
         """Advertise the topic, with the type that its listeners have, else geometry_msgs/Twist."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Work in threads that does not outlive who has asked for it."""
+"""Work in threads that does not outlive the task that asked for it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Result = TypeVar("Result")
 async def in_thread(function: Callable[..., Result], *arguments: object) -> Result:
     """Call a function in a thread and return its result.
 
-    A thread cannot be cancelled: who is cancelled meanwhile waits for its end, and can then undo what it has done.
+    A thread cannot be cancelled: a task that is cancelled meanwhile waits for its end, and can then undo its work.
     """
     work = asyncio.ensure_future(asyncio.to_thread(function, *arguments))
     cancelled = False
@@ -23,6 +23,6 @@ async def in_thread(function: Callable[..., Result], *arguments: object) -> Resu
         except asyncio.CancelledError:
             cancelled = True
     if cancelled:
-        work.exception()  # nobody waits for it any more
+        work.exception()  # no task waits for it any more
         raise asyncio.CancelledError
     return work.result()

@@ -49,7 +49,7 @@ class Buffer {
 class CborWriter {
  public:
   void value(const py::handle& value, int depth) {
-    if (depth > kDeepest) refuse_result("it has more than 100 nested lists and tables");
+    if (depth > kDeepest) refuse_result("it has more than 100 nested lists and maps");
     PyObject* const object = value.ptr();
     if (PyFloat_Check(object)) return number(PyFloat_AS_DOUBLE(object));
     if (object == Py_None) return head(kNullHead);

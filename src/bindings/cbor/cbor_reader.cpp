@@ -64,14 +64,14 @@ class Checker {
       case Kind::kMap:
         return map(item.argument, level + 1);
       case Kind::kBreak:
-        throw CborError("a list or a table ends without having begun");
+        throw CborError("a list or a map ends without having begun");
       default:
         return;
     }
   }
 
   static void check_level(int level) {
-    if (level > kMostLevels) throw CborError("more than 32 nested lists and tables");
+    if (level > kMostLevels) throw CborError("more than 32 nested lists and maps");
   }
 
   void list(std::uint64_t count, int level) {
@@ -88,10 +88,10 @@ class Checker {
     for (std::uint64_t i = 0; i < count; ++i) {
       const CborItem key = reader_.next();
       if (count == CborItem::kUntilBreak && key.kind == Kind::kBreak) return;
-      if (i == kMostPairs) throw CborError("more than 4,096 entries in a table");
-      if (key.kind == Kind::kList || key.kind == Kind::kMap) throw CborError("a list or a table is the key of a table");
+      if (i == kMostPairs) throw CborError("more than 4,096 entries in a map");
+      if (key.kind == Kind::kList || key.kind == Kind::kMap) throw CborError("a list or a map is the key of a map");
       if (key.kind != Kind::kText && ++other_keys_ > kMostOtherKeys) {
-        throw CborError("more than 1,000 keys of tables that are no strings");
+        throw CborError("more than 1,000 keys of maps that are no strings");
       }
       value(key, level);
       value(reader_.next(), level);

@@ -62,7 +62,7 @@ struct MasterThread::Shared {
   std::optional<std::uint64_t> silent_after;  // number of answers at the last timeout of run()
   Clock::time_point last_answer = Clock::now();
   Clock::time_point reported = last_answer;  // when a silence was reported
-  bool said_absent = false;
+  bool reported_absent = false;
   bool first_answer_taken = false;  // wait_for_first_answer() has returned
   std::string refusal;
   bool stopping = false;
@@ -96,7 +96,7 @@ void MasterThread::Shared::set_state(State next) {
 
 void MasterThread::Shared::set_absent(std::unique_lock<std::mutex>& lock) {
   set_state(State::kAbsent);
-  if (std::exchange(said_absent, true)) return;
+  if (std::exchange(reported_absent, true)) return;
   lock.unlock();
   hooks.on_absent();
   lock.lock();

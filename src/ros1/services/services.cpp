@@ -14,6 +14,7 @@
 #include "master/names.hpp"
 #include "master/timed_socket.hpp"
 #include "quiet_thread.hpp"
+#include "seconds_text.hpp"
 #include "services/service_call.hpp"
 
 namespace bubblesim {
@@ -37,13 +38,6 @@ constexpr std::chrono::milliseconds kGrace{100};
 Deadline deadline_after(double timeout) {
   const std::chrono::duration<double> seconds(std::min(timeout, kLongestWait));
   return Deadline(Clock::now() + std::chrono::duration_cast<Clock::duration>(seconds));
-}
-
-std::string seconds_text(double seconds) {
-  std::string text = std::to_string(seconds);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text + " s";
 }
 
 }  // namespace

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "graph/names.hpp"
+#include "seconds_text.hpp"
 
 namespace bubblesim::ros2 {
 namespace {
@@ -25,12 +25,6 @@ constexpr double kMostSeconds = 1e6;
 RequestQueue::Clock::time_point deadline_in(double seconds) {
   const std::chrono::duration<double> wait(std::min(seconds, kMostSeconds));
   return RequestQueue::Clock::now() + std::chrono::duration_cast<RequestQueue::Clock::duration>(wait);
-}
-
-std::string seconds_text(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%g s", seconds);
-  return text;
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "bubblesim/error.hpp"
-#include "check/checks.hpp"
 #include "scene/describe.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim::control {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "bubblesim/error.hpp"
-#include "check/checks.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim::control {
 namespace {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "bubblesim/error.hpp"
-#include "check/checks.hpp"
 #include "scene/describe.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 

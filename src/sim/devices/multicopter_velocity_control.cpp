@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "bubblesim/error.hpp"
-#include "check/checks.hpp"
 #include "devices/link_bodies.hpp"
 #include "scene/describe.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

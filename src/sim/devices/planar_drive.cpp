@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bubblesim/error.hpp"
-#include "check/checks.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "bubblesim/error.hpp"
-#include "check/checks.hpp"
 #include "devices/link_bodies.hpp"
 #include "scene/describe.hpp"
 #include "scene/joint_kind.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "bubblesim/error.hpp"
-#include "check/checks.hpp"
 #include "scene/describe.hpp"
 #include "scene/joint_kind.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/sensor_noise.hpp"
-#include "check/checks.hpp"
 #include "devices/link_bodies.hpp"
 #include "scene/describe.hpp"
 #include "scene/fnv1a.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

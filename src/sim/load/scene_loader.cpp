@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "bubblesim/error.hpp"
-#include "check/scene_check.hpp"
 #include "load/converted_scene.hpp"
 #include "load/find/scene_folders.hpp"
 #include "load/load_context.hpp"
@@ -17,6 +16,7 @@
 #include "load/sdf/worlds/sdf_worlds.hpp"
 #include "load/substeps.hpp"
 #include "load/urdf/urdf_model.hpp"
+#include "validation/scene_check.hpp"
 
 namespace bubblesim {
 namespace {
@@ -41,10 +41,10 @@ ModelDescription ground_plane() {
   return model;
 }
 
-/// Reads one text and keeps its problems.
+/// Reads one document and collects its problems.
 class SceneLoader {
  public:
-  /// `file` is the text's name in errors; its files are in `folder`.
+  /// The name of the document is for errors; its files are in `folder`.
   SceneLoader(const SceneText& text, const fs::path& folder) : context_(text.name, folder), text_(text.text) {}
 
   SceneDescription load_scene(const fs::path& file) {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string>
 
-#include "check/checks.hpp"
-#include "check/needed_substep.hpp"
 #include "load/sdf/elements/own_elements.hpp"
 #include "scene/describe.hpp"
+#include "validation/limits.hpp"
+#include "validation/needed_substep.hpp"
 
 namespace bubblesim {
 namespace {

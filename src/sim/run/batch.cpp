@@ -45,7 +45,7 @@ Batch::Batch(std::shared_ptr<const Scene> scene, const BatchOptions& options)
       failed_(options.worlds) {
   for_all([&](std::size_t i) {
     if (i > 0) worlds_[i] = std::make_unique<Simulation>(scene, options.seed + i);
-    worlds_[i]->set_writes_last_states(false);  // nobody would learn its name
+    worlds_[i]->set_writes_last_states(false);  // no caller would learn its name
     randomization_.apply(*worlds_[i]);
   });
 }

@@ -3,13 +3,13 @@
 
 #include <utility>
 
-#include "check/scene_check.hpp"
 #include "physics/parts/prepared_model.hpp"
 #include "rays/prepared_rays.hpp"
 #include "scene/described_tree.hpp"
 #include "scene/prepared.hpp"
 #include "scene/scene_hash.hpp"
 #include "scene/unit_rotations.hpp"
+#include "validation/scene_check.hpp"
 
 namespace bubblesim {
 namespace {

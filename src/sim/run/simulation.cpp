@@ -10,11 +10,11 @@
 #include "bubblesim/error.hpp"
 #include "bubblesim/randomization.hpp"
 #include "bubblesim/velocity_decay.hpp"
-#include "check/checks.hpp"
 #include "rays/ray_scene.hpp"
 #include "run/sensor_slot.hpp"
 #include "scene/describe.hpp"
 #include "scene/fnv1a.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 

@@ -3,8 +3,8 @@
 #include <cstring>
 
 #include "bubblesim/sensor_noise.hpp"
-#include "check/checks.hpp"
 #include "scene/fnv1a.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

@@ -20,7 +20,7 @@ std::size_t usable_cores() {
 struct WorkerPool::Job {
   const Task& task;
   std::size_t count;
-  std::size_t next = 0;     // the first part that nobody has begun
+  std::size_t next = 0;     // the first part that no thread has begun
   std::size_t running = 0;  // parts begun and not ended
   bool awaited = false;     // the thread that gave the task waits for the last parts
   std::size_t failed_part = 0;

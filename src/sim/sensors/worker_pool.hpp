@@ -41,7 +41,7 @@ class WorkerPool {
 
   std::mutex mutex_;
   std::condition_variable changed_;  // a job was added, or a part of one ended
-  std::list<Job*> jobs_;             // those with parts that nobody has begun
+  std::list<Job*> jobs_;             // those with parts that no thread has begun
   bool ending_ = false;
   std::vector<std::thread> workers_;
 };

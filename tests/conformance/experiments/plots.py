@@ -40,7 +40,7 @@ def turns(axes: Any, engines: Sequence[Any]) -> None:
     for engine in engines:
         rates = [vehicles.skid_steer(engine, 0.4 * ratio, 0.4) for ratio in ratios]
         axes.plot(ratios, rates, MARKS[engine.name], color=COLOURS[engine.name], label=engine.name)
-    axes.set(title="Skid steering on the spot, 5 ms", xlabel="wheel base / track", ylabel="rad/s")
+    axes.set(title="Skid steering in place, 5 ms", xlabel="wheel base / track", ylabel="rad/s")
     axes.set_ylim(bottom=0)
 
 

@@ -45,7 +45,7 @@ def castors_theory(mu: float, step: float) -> float:
 
 
 def spinning_robot(engine: Any, mu: float, step: float) -> Any:
-    """Return the robot, turning on the spot for a second."""
+    """Return the robot, turning in place for a second."""
     world = engine(Scene((castor_robot(mu),), step=step))
     world.set_target("left_axle", -5.0)
     world.set_target("right_axle", 5.0)

@@ -14,7 +14,7 @@ from .experiment import Experiment, Outcome, Result
 
 
 def number(value: float) -> str:
-    """Return a number for readers."""
+    """Return a number with four digits, or "-" for one that is not finite."""
     if not math.isfinite(value):
         return "-"
     if abs(value) < 1e-99:

@@ -166,7 +166,7 @@ def skid_steer_theory(base: float, track: float) -> float:
 
 
 def skid_steer(engine: Any, base: float, track: float) -> float:
-    """Return the yaw rate of a cart that turns on the spot."""
+    """Return the yaw rate of a cart that turns in place."""
     world = engine(Scene((cart(0.15, base=base, track=track, mu=0.8),)))
     for along in ("front", "rear"):
         world.set_target(f"{along}_left_axle", -5.0)
@@ -209,7 +209,7 @@ EXPERIMENTS = [
     ),
     Experiment(
         "skid_steer",
-        "Skid steering on the spot, three ratios of base and track, yaw rate",
+        "Skid steering in place, three ratios of base and track, yaw rate",
         "rad/s",
         skid_steer_theory,
         skid_steer,

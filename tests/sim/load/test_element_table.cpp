@@ -90,7 +90,7 @@ TEST(ElementTable, HasTheAttributesOfTheSpecification) {
   }
 }
 
-TEST(ElementTable, SaysWhyAnElementIsLeftOut) {
+TEST(ElementTable, StatesWhyAnElementIsLeftOut) {
   for (const Specified& specified : specification()) {
     const ElementKind* kind = find(specified.path);
     if (kind == nullptr || kind->effect == Effect::kRead) continue;

@@ -44,7 +44,7 @@ TEST(Lidar, MayGoRoundByARoundedTurn) {
   EXPECT_EQ(scene.models.at(0).links[0].sensors.size(), 1U);
 }
 
-TEST(Sensor, SaysWhereGzSimPublishesIt) {
+TEST(Sensor, StatesWhereGzSimPublishesIt) {
   std::vector<Problem> warnings;
   const SceneDescription scene = loaded(
       in_world("<model name='m'><link name='l'><sensor name='camera' type='depth'><topic>depth</topic><gz_frame_id>eye"
@@ -67,7 +67,7 @@ TEST(Sensor, SaysWhereGzSimPublishesIt) {
   EXPECT_EQ(sensors[2].gz.topic, "bumps");
 }
 
-TEST(LaterVersions, AreNotSaidToBeLeftOutWhereTheyAreRead) {
+TEST(LaterVersions, AreNotReportedAsLeftOutWhereTheyAreRead) {
   const auto joint = [](const std::string& name, const std::string& child, const std::string& more) {
     return "<joint name='" + name + "' type='revolute'><parent>a</parent><child>" + child + "</child><axis><xyz>0 0 1" +
            "</xyz>" + more + "</axis></joint>";

@@ -204,7 +204,7 @@ TEST(Spotlight, IsBrightInItsInnerConeAndFadesInItsOuter) {
   EXPECT_EQ(at_angle(0.61), 0);
 }
 
-TEST(Shadow, IsNotThrownByVisualsThatSaySo) {
+TEST(Shadow, IsNotThrownByVisualsThatStateIt) {
   for (const Geometry& geometry :
        {Geometry(Sphere{0.2}), Geometry(Box{{0.3, 0.3, 0.3}}), Geometry(box_mesh({0.3, 0.3, 0.3}))}) {
     ModelDescription thing = showing(visual(geometry), at(1, 0, 1));

@@ -101,7 +101,7 @@ TEST_F(ModelIncludes, MayGiveAnotherScriptBesideTheScene) {
   EXPECT_TRUE(fs::equivalent(scene.models.at(0).child_script, folder_ / "scene/other.py"));
 }
 
-TEST_F(ModelIncludes, OfAScriptThatDoesNotExistIsToldWithItsLine) {
+TEST_F(ModelIncludes, OfAScriptThatDoesNotExistIsReportedWithItsLine) {
   write_model("scene/near");
   const std::string reported =
       reported_for("\n<include><uri>near</uri><bubblesim:child_script>none.py</bubblesim:child_script></include>");
@@ -109,7 +109,7 @@ TEST_F(ModelIncludes, OfAScriptThatDoesNotExistIsToldWithItsLine) {
   EXPECT_NE(reported.find("none.py does not exist"), std::string::npos) << reported;
 }
 
-TEST_F(ModelIncludes, OfUnknownModelsAreLeftOutAndTellWhereWasSearched) {
+TEST_F(ModelIncludes, OfUnknownModelsAreLeftOutAndNameWhereWasSearched) {
   std::vector<Problem> warnings;
   EXPECT_TRUE(load("\n<include><uri>model://nothing</uri></include>", &warnings).models.empty());
   const std::string reported = lines_of(warnings);
@@ -118,7 +118,7 @@ TEST_F(ModelIncludes, OfUnknownModelsAreLeftOutAndTellWhereWasSearched) {
   EXPECT_NE(reported.find("BUBBLESIM_MODEL_PATH"), std::string::npos) << reported;
 }
 
-TEST_F(ModelIncludes, ProblemsInsideAModelAreToldInItsFile) {
+TEST_F(ModelIncludes, ProblemsInsideAModelAreReportedInItsFile) {
   write_model("scene/near");
   write("scene/near/model.sdf",
         "<sdf version='1.9'><model name='robot'><link name='base'><inertial><mass>-1</mass></inertial>\n"

@@ -148,7 +148,7 @@ TEST(Model, NamedWithASlashGetsANameForPaths) {
   EXPECT_EQ(the_robot(loaded(in_world("<model name='a/b'><link name='l'/></model>"))).name, "a_b");
 }
 
-TEST(Elements, ThatSdformatDoesNotKnowAreTold) {
+TEST(Elements, ThatSdformatDoesNotKnowAreReported) {
   std::vector<Problem> warnings;
   loaded("<sdf version='1.9'><model name='m'>\n<link name='l'>\n<contact/></link></model></sdf>", "odd.sdf", &warnings);
   const std::string reported = lines_of(warnings);
@@ -193,7 +193,7 @@ TEST(Urdf, StandsWhenItsFirstLinkHasNoMass) {
   EXPECT_NEAR(world.pose(world.tree().find("/r/b")).position.z(), 2, 1e-3);
 }
 
-TEST(Urdf, WithoutALinkOfItsOwnTellsSo) {
+TEST(Urdf, WithoutALinkOfItsOwnIsReported) {
   EXPECT_TRUE(holds(reported_for(robot("<link name='world'/>"), "odd.urdf"), "contains no <link> except the world"));
 }
 
@@ -211,7 +211,7 @@ TEST(Urdf, WithANegativeMassIsRefused) {
   EXPECT_TRUE(holds(reported_for(text, "odd.urdf"), "/r/a: the mass is -1 kg, it must be above 0"));
 }
 
-TEST(Urdf, ThatCannotBeParsedSaysWhy) {
+TEST(Urdf, ThatCannotBeParsedStatesWhy) {
   EXPECT_TRUE(
       holds(reported_for(robot(heavy("a") + urdf_joint("fixed", "a", "b")), "odd.urdf"), "child link [b] of joint"));
 }

@@ -23,7 +23,7 @@ const LinkDescription& link_of(const SceneDescription& scene, std::size_t index)
 
 TEST(SceneAir, WorldHasItsWind) { EXPECT_EQ(read("").environment.wind, Vector3(1, -2, 0.5)); }
 
-TEST(SceneAir, LinksTakePartInTheWindLikeTheirModelUnlessTheySayOtherwise) {
+TEST(SceneAir, LinksTakePartInTheWindLikeTheirModelUnlessTheyStateOtherwise) {
   const SceneDescription scene = read(
       "<model name='m'><enable_wind>true</enable_wind><link name='a'/><link "
       "name='b'><enable_wind>0</enable_wind></link>"

@@ -35,7 +35,7 @@ void expect_color(const Color& color, float r, float g, float b) {
   EXPECT_FLOAT_EQ(color.b, b);
 }
 
-TEST(Visual, HoldsWhatTheFileSays) {
+TEST(Visual, HoldsWhatTheFileStates) {
   const auto read = visuals(std::string("<visual name='v'><pose>1 2 3 0 0 0.5</pose><laser_retro>9</laser_retro>") +
                             kSphere + "</visual>");
   ASSERT_EQ(read.size(), 1U);
@@ -99,7 +99,7 @@ TEST(Material, MayBeACheckerboard) {
   expect_color(read.checker_color, 0.1F, 0.2F, 0.3F);
 }
 
-TEST(Surroundings, HoldWhatTheFileSays) {
+TEST(Surroundings, HoldWhatTheFileStates) {
   const Environment read = environment(
       "<scene><ambient>0.1 0.2 0.3 1</ambient><background>0.4 0.5 0.6 1</background><shadows>false</shadows><sky/>"
       "</scene>");

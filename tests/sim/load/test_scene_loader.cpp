@@ -91,7 +91,7 @@ TEST(SceneError, TextIsAsEditorsReadIt) {
   }
 }
 
-TEST(SceneFile, EmptyFileIsSaidToBeEmpty) {
+TEST(SceneFile, EmptyFileIsReportedAsEmpty) {
   EXPECT_EQ(all_problems(TemporaryFile("empty.sdf", "").path()), "0: is empty\n");
 }
 
@@ -156,7 +156,7 @@ TEST(LoadedScene, FileWithAModelAloneGetsGround) {
   EXPECT_NEAR(world.pose(world.tree().find("/Ball")).position.z(), 0.5, 0.003);
 }
 
-TEST(LoadedScene, HoldsWhatTheFileSays) {
+TEST(LoadedScene, HoldsWhatTheFileStates) {
   const TemporaryFile file("all.sdf", in_world(R"(
     <gravity>1 2 -3</gravity>
     <physics name='p' type='ode'><max_step_size>0.002</max_step_size></physics>
@@ -289,7 +289,7 @@ TEST(ModelText, FindsItsChildScriptInTheFolder) {
   EXPECT_TRUE(fs::equivalent(load_model(text, kScenes).child_script, kScenes / "tricycle.py"));
 }
 
-TEST(ModelText, ThatCannotBeUsedTellsWhere) {
+TEST(ModelText, ThatCannotBeUsedStatesWhere) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"", "<data-string>: is empty"},
       {"ball", "<data-string>"},

@@ -27,7 +27,7 @@ std::string lidar(const std::string& type, const std::string& element) {
 
 class LidarOfAnyName : public ::testing::TestWithParam<std::pair<const char*, const char*>> {};
 
-TEST_P(LidarOfAnyName, HoldsWhatTheFileSays) {
+TEST_P(LidarOfAnyName, HoldsWhatTheFileStates) {
   const SensorDescription sensor = loaded(lidar(GetParam().first, GetParam().second));
   EXPECT_EQ(sensor.pose, Pose(0, 0, 0.2, 0, 0, 1));
   EXPECT_EQ(sensor.update_rate, 10);
@@ -69,7 +69,7 @@ std::string camera(const std::string& type, const std::string& more = "") {
          more + "</camera></sensor>";
 }
 
-TEST(Camera, OfAFileHoldsWhatTheFileSays) {
+TEST(Camera, OfAFileHoldsWhatTheFileStates) {
   const SensorDescription sensor = loaded(camera("camera", "<bubblesim:antialias>true</bubblesim:antialias>"));
   EXPECT_EQ(sensor.pose.position, Vector3(1, 2, 0));
   const auto& read = sensor.kind.get<CameraDescription>();
@@ -127,7 +127,7 @@ TEST(Sensors, OfAKindThatIsNotSimulatedAreLeftOutWithAWarning) {
       << warning;
 }
 
-TEST(Altimeter, HoldsWhatTheFileSays) {
+TEST(Altimeter, HoldsWhatTheFileStates) {
   const SensorDescription sensor = loaded(
       "<sensor name='s' type='altimeter'><altimeter><vertical_position><noise type='gaussian'><stddev>0.1</stddev>"
       "</noise></vertical_position><vertical_velocity><noise type='gaussian'><stddev>0.2</stddev></noise>"
@@ -137,7 +137,7 @@ TEST(Altimeter, HoldsWhatTheFileSays) {
   EXPECT_EQ(read.velocity_noise.stddev, 0.2);
 }
 
-TEST(Magnetometer, HoldsWhatTheFileSays) {
+TEST(Magnetometer, HoldsWhatTheFileStates) {
   const SensorDescription sensor = loaded(
       "<sensor name='s' type='magnetometer'><magnetometer><y><noise type='gaussian'><stddev>1e-7</stddev></noise></y>"
       "</magnetometer></sensor>");

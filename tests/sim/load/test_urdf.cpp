@@ -194,7 +194,7 @@ TEST(UrdfShape, OfAnUnknownGeometryIsLeftOut) {
   EXPECT_TRUE(holds(warnings_about(text), "r.urdf:2: /r/a: <cone> is not a geometry of URDF"));
 }
 
-TEST(UrdfShape, WithoutAMeshFileSaysWhereItIsSearched) {
+TEST(UrdfShape, WithoutAMeshFileStatesWhereItIsSearched) {
   const std::string text = robot(link_text(
       "a", kUnitInertial + "<collision><geometry><mesh filename='package://nowhere/a.stl'/></geometry></collision>"));
   EXPECT_TRUE(holds(warnings_about(text), "/r/a/a_collision: file not found: 'model://nowhere/a.stl'"));
@@ -263,7 +263,7 @@ TEST(UrdfNumbers, AreAllReportedAtOnce) {
   EXPECT_TRUE(holds(reported, "has no <limit>")) << reported;
 }
 
-TEST(UrdfTree, ThatIsNoneSaysWhy) {
+TEST(UrdfTree, ThatIsNoneStatesWhy) {
   const std::string loop = joint_text("j", "fixed", "b", "c") + joint_text("k", "fixed", "c", "b");
   const std::vector<std::pair<std::string, std::string>> cases = {
       {link_text("a") + link_text("b"),

@@ -147,7 +147,7 @@ TEST(GazeboOfALink, RefersToCollisionsByTheirNamesInThatLink) {
             std::vector<std::string>{"base_fixed_joint_lump__tool_collision_1"});
 }
 
-TEST(GazeboOfALink, TellsWhatItDoesNotKnow) {
+TEST(GazeboOfALink, WarnsOfWhatItDoesNotKnow) {
   EXPECT_EQ(warnings_about(arm("\n" + gazebo("base", "<muu>1</muu>"))),
             "r.urdf:2: /r/base: <muu> is not an element of <link>: ignored\n");
   EXPECT_EQ(warnings_about(arm("\n" + gazebo("tol", "<mu1>1</mu1>"))),

@@ -94,7 +94,7 @@ TEST(SharedScene, GivesTheWarningsOfItsFiles) {
   EXPECT_EQ(warning.message.rfind("<kinematic> is ignored", 0), 0U) << warning.message;
 }
 
-TEST(BadScene, TellsItsWarningsToo) {
+TEST(BadScene, ListsItsWarningsToo) {
   const TemporaryFile file("bad.sdf", in_world("<model name='m'><link name='l'><kinematic>true</kinematic><inertial>"
                                                "<mass>-1</mass></inertial></link></model>"));
   try {

@@ -354,7 +354,7 @@ TEST(ReadingSensors, DoesNotChangeTheState) {
   EXPECT_EQ(watched.simulation.state_hash(), alone.simulation.state_hash());
 }
 
-TEST(DivergingSimulation, SaysSoInEachFurtherPass) {
+TEST(DivergingSimulation, ReportsItInEachFurtherPass) {
   SceneDescription described = scene({model("Ball", link("link"), at(999999, 0, 0))}, {1e4, 0, 0});
   Simulation simulation(described);
   EXPECT_THROW(for (int i = 0; i < 100; ++i) simulation.step(), Diverged);

@@ -23,7 +23,7 @@ Kind measured(Simulation& simulation) {
   return simulation.measure(simulation.world().tree().find("/Sensor"))->measurement.get<Kind>();
 }
 
-TEST(Altimeter, TellsTheHeightAboveItsStartAndHowFastItClimbs) {
+TEST(Altimeter, MeasuresTheHeightAboveItsStartAndHowFastItClimbs) {
   Simulation simulation(carried(AltimeterDescription{}, at(0, 0, 5)));
   EXPECT_EQ(measured<AltimeterReading>(simulation).height, 0);
   simulation.world().set_velocity(simulation.world().tree().find("/Robot"), {{3, 0, 2}, {}});
@@ -33,7 +33,7 @@ TEST(Altimeter, TellsTheHeightAboveItsStartAndHowFastItClimbs) {
   EXPECT_NEAR(reading.velocity, 2, 1e-9);
 }
 
-TEST(Altimeter, IsAsNoisyAsItsFileSays) {
+TEST(Altimeter, IsAsNoisyAsItsFileStates) {
   AltimeterDescription noisy;
   noisy.position_noise.mean = 0.5;
   noisy.velocity_noise.mean = 0.25;
@@ -43,7 +43,7 @@ TEST(Altimeter, IsAsNoisyAsItsFileSays) {
   EXPECT_EQ(reading.velocity, 0.25);
 }
 
-TEST(Magnetometer, FeelsTheFieldOfTheWorldInItsOwnAxes) {
+TEST(Magnetometer, MeasuresTheFieldOfTheWorldInItsOwnAxes) {
   SceneDescription described = carried(MagnetometerDescription{}, Pose(0, 0, 0, 0, 0, M_PI / 2));
   described.environment.magnetic_field = {2e-5, 1e-5, -4e-5};
   Simulation simulation(described);

@@ -155,7 +155,7 @@ TEST(Picture, HasTheUpperLeftFirst) {
   EXPECT_EQ(picture.object(29, 24), kNoObject);
 }
 
-TEST(Picture, TellsTheLinkInEachPixel) {
+TEST(Picture, GivesTheLinkInEachPixel) {
   SceneDescription described = with_camera(camera(), {thing("Left", colored(Box{{1, 50, 99}}, {}), at(3, 25, 0)),
                                                       thing("Right", colored(Box{{1, 50, 99}}, {}), at(4, -25, 0))});
   Simulation simulation(described);

@@ -25,7 +25,7 @@ ImuReading measured(Simulation& simulation) {
   return simulation.measure(simulation.world().tree().find("/Imu"))->measurement.get<ImuReading>();
 }
 
-TEST(Imu, AtRestFeelsWhatHoldsItAgainstGravity) {
+TEST(Imu, AtRestMeasuresWhatHoldsItAgainstGravity) {
   Simulation simulation(scene({floor(), with_imu(link_with(Box{{1, 1, 1}}), {}, at(0, 0, 0.499))}));
   for (int i = 0; i < 20; ++i) simulation.step();
   const ImuReading reading = measured(simulation);
@@ -41,13 +41,13 @@ TEST(Imu, MeasuresInItsOwnFrame) {
   expect_near(reading.orientation, leaning.orientation, 1e-9);
 }
 
-TEST(Imu, FallingFeelsNothing) {
+TEST(Imu, FallingMeasuresNothing) {
   Simulation simulation(scene({with_imu(link_with(Sphere{0.1}), at(0.3, 0, 0))}));
   for (int i = 0; i < 5; ++i) simulation.step();
   expect_near(measured(simulation).linear_acceleration, {}, 1e-6);
 }
 
-TEST(Imu, AwayFromTheAxisFeelsTheTurn) {
+TEST(Imu, AwayFromTheAxisMeasuresTheRotation) {
   constexpr double kTurn = 2;     // rad/s
   constexpr double kLever = 0.5;  // m
   Simulation simulation(scene({with_imu(link("link"), Pose(kLever, 0, 0, 0, 0, 0))}, Vector3::Zero()));

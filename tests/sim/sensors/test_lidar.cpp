@@ -165,7 +165,7 @@ TEST(Lidar, OfManyRaysMeasuresAsOneOfFew) {
   for (int i = 0; i <= 360; ++i) EXPECT_NEAR(scan->ranges[20 * i], few->ranges[i], 1e-5) << i;
 }
 
-TEST(Lidar, TellsTheRetroOfWhatItHits) {
+TEST(Lidar, MeasuresTheRetroOfWhatItHits) {
   ModelDescription mirror = still(model("Mirror", link("link")));
   VisualDescription visual;
   visual.geometry = Sphere{1};

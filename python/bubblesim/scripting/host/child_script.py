@@ -96,7 +96,7 @@ class ChildScript:
     def _warn_of_unknown_callbacks(self) -> None:
         for name, place in sorted(self._code.functions_by_name().items()):
             if looks_like_callback(name) and name not in HOOKS:
-                self._say(
+                self._log(
                     f"warning: child script of {self.object_path}: {place or self.file}: {never_called(name)}",
                     log.SCRIPT_WARNING,
                 )
@@ -105,7 +105,7 @@ class ChildScript:
     def _problem(self, level: str, text: str, place: str = "") -> Problem:
         return problems.of_script(level, self.object_path, str(self.file), place, text)
 
-    def _say(self, text: str, level: int) -> None:
+    def _log(self, text: str, level: int) -> None:
         write_line(sys.stderr, text)
         self.shared.log.add(level, self.object_path, text.partition(": ")[2])
 
@@ -140,7 +140,7 @@ class ChildScript:
     def _end_thread(self) -> None:
         thread, self._thread = self._thread, None
         if thread and not thread.end(lambda: script_sockets.shut_down(self._sockets)):
-            self._say(f"warning: the thread of the child script of {self.object_path} does not end", log.SCRIPT_WARNING)
+            self._log(f"warning: the thread of the child script of {self.object_path} does not end", log.SCRIPT_WARNING)
 
     def sense(self) -> None:
         """Run sysCall_sensing."""
@@ -298,7 +298,7 @@ class ChildScript:
         raise TypeError(f"a callback must be a function or the name of a function, found {type(function).__name__}")
 
     def _fail(self, text: str, problem: Problem) -> None:
-        self._say(text, log.SCRIPT_ERROR)
+        self._log(text, log.SCRIPT_ERROR)
         self.host.add_problem(problem)
         self.host.failures += 1
         self.failed = True
@@ -315,4 +315,4 @@ class ChildScript:
             try:
                 undo()
             except Exception as error:  # an error must not prevent releasing the others
-                self._say(f"warning: child script of {self.object_path}: while it ended: {error}", log.SCRIPT_WARNING)
+                self._log(f"warning: child script of {self.object_path}: while it ended: {error}", log.SCRIPT_WARNING)

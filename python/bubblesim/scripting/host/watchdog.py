@@ -11,8 +11,8 @@ from bubblesim.program.output import write_line
 from bubblesim.scripting.host import interruption
 from bubblesim.scripting.host.protocols import Host, RunningScript
 
-_CHECK_INTERVAL = 0.3  # s
-_CHECKS = 5  # number of checks with the same call before the warning
+_CHECK_INTERVAL = 0.1  # s
+_CHECKS = 15  # number of checks with the same call before the warning
 
 
 class Watchdog:

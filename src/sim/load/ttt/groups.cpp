@@ -77,7 +77,7 @@ class Grouping {
 
   const Pose& in_file(int body) const { return node(structure_.bodies[static_cast<std::size_t>(body)].shape).world; }
 
-  /// From body to body, as long as each is reached in one way.
+  /// Poses of the bodies with all joints at 0, from parents to children; empty if the connections form a loop.
   void put_at_zero(Group& group) {
     std::map<int, Pose>& poses = group.at_zero;
     const auto connection = [&](int i) -> const Connection& {

@@ -41,7 +41,7 @@ class Bits {
 struct CodeNode {
   bool is_leaf = false;
   char value = 0;
-  std::uint16_t children[2] = {0, 0};  // 0: not read yet, as the root is nobody's child
+  std::uint16_t children[2] = {0, 0};  // 0: not read yet; the root is no child
 };
 
 std::vector<CodeNode> read_tree(Bits& bits) {

@@ -8,7 +8,7 @@ namespace bubblesim::ttt {
 namespace {
 
 /// Whether a script begins with a line `#python`, after empty lines and other lines that begin with #.
-bool says_python(const std::string& text) {
+bool names_python(const std::string& text) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     const std::size_t first = line.find_first_not_of(" \t\r");
@@ -66,7 +66,7 @@ Script read_script(const TagList& list) {
   script.is_disabled = (bits & 2U) != 0;
   script.is_default_main = script.kind == ScriptKind::kMain && (bits & 8U) == 0;
   const auto language = list.text("Lne");
-  script.is_python = language ? *language == "python" : says_python(script.text);
+  script.is_python = language ? *language == "python" : names_python(script.text);
   return script;
 }
 

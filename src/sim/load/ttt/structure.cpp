@@ -2,7 +2,7 @@
 #include "load/ttt/structure.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 namespace bubblesim::ttt {
 namespace {
@@ -22,7 +22,6 @@ class Builder {
     find_parents();
     for (const int root : built_.roots) walk(root);
     for (int i = 0; i < count(); ++i) connect(i);
-    number_models();
     return std::move(built_);
   }
 
@@ -150,22 +149,6 @@ class Builder {
       std::swap(connection.parent, connection.child);
     }
     built_.connections.push_back(connection);
-  }
-
-  void number_models() {
-    std::vector<std::size_t> leader(built_.bodies.size());
-    std::iota(leader.begin(), leader.end(), std::size_t{0});
-    const auto find = [&](std::size_t body) {
-      while (leader[body] != body) body = leader[body] = leader[leader[body]];
-      return body;
-    };
-    for (const Connection& connection : built_.connections) {
-      if (connection.parent == kWorld) continue;
-      const std::size_t a = find(static_cast<std::size_t>(connection.parent));
-      const std::size_t b = find(static_cast<std::size_t>(connection.child));
-      leader[std::max(a, b)] = std::min(a, b);  // the body that comes first in the tree leads
-    }
-    for (std::size_t i = 0; i < leader.size(); ++i) built_.bodies[i].model = static_cast<int>(find(i));
   }
 
   const SceneFile& file_;

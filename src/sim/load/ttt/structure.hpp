@@ -28,7 +28,6 @@ struct Node {
 struct Body {
   int shape = kNone;         ///< the object that makes it: not static
   std::vector<int> members;  ///< all objects that move with it, itself first
-  int model = 0;             ///< bodies of the same number are connected
 };
 
 enum class ConnectionKind {

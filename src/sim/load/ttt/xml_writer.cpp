@@ -2,19 +2,14 @@
 #include "load/ttt/xml_writer.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
+
+#include "scene/describe.hpp"
 
 namespace bubblesim::ttt {
 
-std::string exact(double value) {
-  std::array<char, 32> buffer{};
-  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
-}
-
 std::string exact(std::initializer_list<double> values) {
   std::string all;
-  for (const double value : values) all += (all.empty() ? "" : " ") + exact(value);
+  for (const double value : values) all += (all.empty() ? "" : " ") + bubblesim::exact(value);
   return all;
 }
 
@@ -22,7 +17,7 @@ void put(pugi::xml_node parent, const char* name, const std::string& text) {
   parent.append_child(name).text().set(text.c_str());
 }
 
-void put(pugi::xml_node parent, const char* name, double value) { put(parent, name, exact(value)); }
+void put(pugi::xml_node parent, const char* name, double value) { put(parent, name, bubblesim::exact(value)); }
 
 void put_pose(pugi::xml_node parent, const Pose& pose) {
   pugi::xml_node element = parent.append_child("pose");

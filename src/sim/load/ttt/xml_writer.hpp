@@ -11,7 +11,6 @@
 
 namespace bubblesim::ttt {
 
-std::string exact(double value);
 /// Separated by spaces.
 std::string exact(std::initializer_list<double> values);
 /// An element with text.

@@ -88,6 +88,12 @@ XmlElement in_place_of(const XmlElement& other, const std::string& name) {
   return element;
 }
 
+XmlElement named_element(const std::string& kind, const std::string& name, const XmlElement& place) {
+  XmlElement element = in_place_of(place, kind);
+  element.set_attribute("name", name);
+  return element;
+}
+
 XmlElement pose_element(const Pose& pose, const XmlElement& place) {
   const Vector3& p = pose.position;
   const Quaternion& q = pose.orientation;

@@ -33,6 +33,9 @@ Pose origin_of(const XmlElement& element, const std::string& path, LoadContext& 
 /// An element without content, in the place of another for errors.
 XmlElement in_place_of(const XmlElement& other, const std::string& name);
 
+/// The same with a name.
+XmlElement named_element(const std::string& kind, const std::string& name, const XmlElement& place);
+
 /// SDFormat's <pose>, in the place of another element.
 XmlElement pose_element(const Pose& pose, const XmlElement& place);
 

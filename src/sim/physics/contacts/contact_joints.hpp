@@ -15,7 +15,7 @@ void take_force(const FoundPair& pair, FoundContact& point);
 /// Creates the joints of the contacts that were found in islands with joints.
 void join_contacts(Substep& substep);
 
-/// Takes the forces of the contacts after the solvers, and remembers them.
+/// Stores the forces of the contacts, after the solvers.
 void gather_contacts(Contacts& contacts);
 
 }  // namespace bubblesim

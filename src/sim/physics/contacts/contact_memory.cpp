@@ -33,7 +33,7 @@ Vector3 shift(const FoundPair& pair) {
   return second == nullptr ? first : (first + to_vector(dBodyGetLinearVel(second))) / 2;
 }
 
-/// Half of the way from the last limit to the normal force, which converges where friction lowers the normal force by
+/// Halfway from the last limit to the normal force, which converges where friction lowers the normal force by
 /// up to three times as much, and where it raises it by less.
 double next_limit(const FoundContact& point, double normal) {
   return point.limit.relied == FrictionLimit::kNone ? normal : (normal + point.limit.relied) / 2;

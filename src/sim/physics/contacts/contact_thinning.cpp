@@ -36,7 +36,7 @@ std::map<int, std::vector<Patch>> patches_by_island(const FoundContacts& found, 
   std::vector<std::pair<int, Patch>> all;
   for (const FoundPair& pair : found.pairs) {
     const int island = islands.of(pair.first->model);
-    if (!islands.is_jointed(island) || islands.contacts(island) <= Islands::kFew) continue;
+    if (!islands.is_jointed(island) || islands.contacts(island) <= Islands::kMaxContacts) continue;
     std::vector<std::size_t>& patches = by_links[std::minmax(pair.first->link, pair.second->link)];
     for (std::size_t i = pair.begin; i < pair.begin + static_cast<std::size_t>(pair.count); ++i) {
       const auto patch = std::find_if(patches.begin(), patches.end(), [&](std::size_t other) {

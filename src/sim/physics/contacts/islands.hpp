@@ -17,8 +17,8 @@ class Islands {
   /// An island with joints and more contacts is too big for the exact solver, whose cost grows with the cube of the
   /// contacts. A model that touches no other moving model may have more, because a robot's wheels creep under the
   /// iterative solver.
-  static constexpr int kFew = 20;
-  static constexpr int kFewOfOne = 40;
+  static constexpr int kMaxContacts = 20;
+  static constexpr int kMaxContactsAlone = 40;
 
   /// Starts with each model alone.
   void clear(std::size_t models) {
@@ -54,11 +54,11 @@ class Islands {
   int contacts(int island) const { return contacts_[index(island)]; }
   void set_contacts(int island, int contacts) { contacts_[index(island)] = contacts; }
   /// Maximum number of contacts in an island for the exact solver.
-  int limit(int island) const { return models_[index(island)] == 1 ? kFewOfOne : kFew; }
+  int limit(int island) const { return models_[index(island)] == 1 ? kMaxContactsAlone : kMaxContacts; }
   /// Whether an island with joints is too big for the exact solver.
   bool is_beyond_limit(int island) const { return is_jointed(island) && contacts(island) > limit(island); }
   /// Whether an island with joints may be too big for the exact solver.
-  bool may_be_beyond_limit() const { return most_ > kFew; }
+  bool may_be_beyond_limit() const { return most_ > kMaxContacts; }
 
  private:
   static std::size_t index(int number) { return static_cast<std::size_t>(number); }

@@ -17,11 +17,9 @@ namespace {
 
 // A mesh is convex if its volume differs from that of its hull by less than this fraction; files round their corners.
 constexpr double kConvex = 0.001;
-// ODE takes ten microseconds for each triangle that a body may touch, in each collision check: with this many triangles
-// in a cubic metre, a tenth of a second and more. With fewer than the second number a check takes some hundredths of a
-// second.
-constexpr std::size_t kTooManyInCubicMetre = 10'000;
-constexpr std::size_t kFewInCubicMetre = 3'000;
+// ODE takes ten microseconds for each triangle that a body may touch, in each collision check.
+constexpr std::size_t kTooManyInCubicMetre = 10'000;  // triangles; a check takes a tenth of a second and more
+constexpr std::size_t kFewInCubicMetre = 3'000;       // triangles; a check takes some hundredths of a second
 // Of the division of a concave mesh into convex parts: a contact takes a few microseconds for each pair of parts.
 constexpr PartLimits kPartLimits;
 constexpr std::size_t kMostToDivide = 5'000;  // triangles; these take a few tenths of a second

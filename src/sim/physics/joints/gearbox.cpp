@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "check/checker.hpp"
-#include "check/checks.hpp"
-#include "check/scene_check.hpp"
 #include "load/sdf/elements/sdf_element.hpp"
 #include "physics/joints/define.hpp"
 #include "physics/joints/point_velocity_constraint.hpp"
@@ -14,6 +11,9 @@
 #include "physics/ode/constraint_defaults.hpp"
 #include "physics/ode/ode_math.hpp"
 #include "scene/describe.hpp"
+#include "validation/checker.hpp"
+#include "validation/limits.hpp"
+#include "validation/scene_check.hpp"
 
 namespace bubblesim {
 namespace {
@@ -204,7 +204,7 @@ class GearboxKind final : public JointKind {
     checker.require(std::abs(joint.gearbox_ratio) >= 1e-3 && within(joint.gearbox_ratio, 1e3), "the gearbox ratio",
                     text(joint.gearbox_ratio), "1e-3 to 1e3 in absolute value");
     if (joint.gearbox_reference != "world") {
-      checker.check_link_name(model, joint.gearbox_reference, "gearbox_reference_body");
+      checker.check_link_name(joint.gearbox_reference, "gearbox_reference_body");
     }
     for (const std::string& link : {joint.parent, joint.child}) {
       if (hinge_between(model, joint.gearbox_reference, link) != nullptr) continue;

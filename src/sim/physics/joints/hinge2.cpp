@@ -2,9 +2,9 @@
 // revolute2: a steered wheel in one joint. The first axis is fixed in the parent, the second in the child.
 #include <cmath>
 
-#include "check/checker.hpp"
 #include "physics/joints/define.hpp"
 #include "scene/describe.hpp"
+#include "validation/checker.hpp"
 
 namespace bubblesim {
 namespace {

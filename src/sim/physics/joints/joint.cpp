@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "check/checks.hpp"
 #include "physics/ode/constraint_defaults.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/joints/point_velocity_constraint.hpp"
 
-#include "check/checks.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 

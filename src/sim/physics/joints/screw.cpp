@@ -2,14 +2,14 @@
 // screw: the child rotates about an axis and slides along it by its lead per turn.
 #include <cmath>
 
-#include "check/checker.hpp"
-#include "check/checks.hpp"
 #include "load/load_context.hpp"
 #include "load/sdf/elements/sdf_element.hpp"
 #include "physics/joints/define.hpp"
 #include "physics/joints/point_velocity_constraint.hpp"
 #include "physics/ode/constraint_defaults.hpp"
 #include "scene/describe.hpp"
+#include "validation/checker.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

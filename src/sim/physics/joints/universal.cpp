@@ -2,10 +2,10 @@
 // universal: two axes at right angles. The first is fixed in the parent, the second in the child.
 #include <cmath>
 
-#include "check/checker.hpp"
-#include "check/checks.hpp"
 #include "physics/joints/define.hpp"
 #include "scene/describe.hpp"
+#include "validation/checker.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "bubblesim/error.hpp"
-#include "check/checks.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

@@ -34,7 +34,7 @@ constexpr std::size_t kFewRows = 48;
 /// The length of ODE's rows of a matrix.
 std::size_t padded(std::size_t columns) { return columns > 1 ? (columns + 3) / 4 * 4 : columns; }
 
-SolveLcp odes_solver() {
+SolveLcp ode_lcp_solver() {
   static const auto found = reinterpret_cast<SolveLcp>(
       dlsym(RTLD_NEXT, "_Z10dxSolveLCPP22dxWorldProcessMemArenajPdS1_S1_jS1_Pi"));  // NOLINT: a function
   return found;
@@ -52,8 +52,8 @@ class JointElimination {
     couple(matrix, skip, values);
     if (!limited_.empty()) {
       reduce(matrix, skip, values, limits, limit_of);
-      odes_solver()(memory, static_cast<unsigned>(limited_.size()), matrix, values_.data(), nullptr, 0, limits_.data(),
-                    limit_of == nullptr ? nullptr : limit_of_.data());
+      ode_lcp_solver()(memory, static_cast<unsigned>(limited_.size()), matrix, values_.data(), nullptr, 0,
+                       limits_.data(), limit_of == nullptr ? nullptr : limit_of_.data());
     }
     insert(values);
     return true;
@@ -169,5 +169,5 @@ void dxSolveLCP(dxWorldProcessMemArena* memory, unsigned rows, double* matrix, d
                 unsigned unlimited, double* limits, int* limit_of) {
   thread_local bubblesim::JointElimination elimination;
   if (w == nullptr && elimination.solve(memory, rows, matrix, values, unlimited, limits, limit_of)) return;
-  bubblesim::odes_solver()(memory, rows, matrix, values, w, unlimited, limits, limit_of);
+  bubblesim::ode_lcp_solver()(memory, rows, matrix, values, w, unlimited, limits, limit_of);
 }

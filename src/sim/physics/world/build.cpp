@@ -6,12 +6,12 @@
 #include <variant>
 
 #include "bubblesim/error.hpp"
-#include "check/scene_check.hpp"
 #include "physics/contacts/convex_geom.hpp"
 #include "physics/motion/impact.hpp"
 #include "physics/motion/joint_correction.hpp"
 #include "physics/world/state.hpp"
 #include "scene/joint_kind.hpp"
+#include "validation/scene_check.hpp"
 
 namespace bubblesim {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/world_joints.hpp"
-#include "check/checks.hpp"
 #include "physics/world/state.hpp"
 #include "scene/describe.hpp"
 #include "scene/joint_kind.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

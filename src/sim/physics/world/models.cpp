@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "bubblesim/world_models.hpp"
-#include "check/scene_check.hpp"
 #include "physics/motion/sleep.hpp"
 #include "physics/world/state.hpp"
 #include "scene/described_tree.hpp"
 #include "scene/scene_hash.hpp"
 #include "scene/unit_rotations.hpp"
+#include "validation/scene_check.hpp"
 
 namespace bubblesim {
 

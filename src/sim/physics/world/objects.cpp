@@ -7,10 +7,10 @@
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/world.hpp"
-#include "check/checks.hpp"
 #include "physics/motion/sleep.hpp"
 #include "physics/world/state.hpp"
 #include "scene/describe.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "bubblesim/device.hpp"
 #include "bubblesim/error.hpp"
-#include "check/checks.hpp"
 #include "physics/ode/body_state.hpp"
 #include "physics/world/state.hpp"
 #include "scene/fnv1a.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

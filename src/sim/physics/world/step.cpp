@@ -7,7 +7,6 @@
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/world.hpp"
-#include "check/checks.hpp"
 #include "physics/contacts/collision.hpp"
 #include "physics/contacts/contact_joints.hpp"
 #include "physics/motion/impact.hpp"
@@ -15,6 +14,7 @@
 #include "physics/motion/sleep.hpp"
 #include "physics/world/state.hpp"
 #include "scene/describe.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

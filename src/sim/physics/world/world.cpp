@@ -23,6 +23,7 @@ void take_statics(WorldState& state, WorldState& from) {
     state.models[i] = std::move(from.models[i]);
     for (Collider& collider : state.models[i]->colliders) collider.own_surface.reset();
     state.model_at[SceneTree::index_of(state.models[i]->object)] = state.models[i].get();
+    place_frames(state, *state.models[i]);
   }
 }
 
@@ -101,7 +102,6 @@ void World::reset() {
     }
   }
   if (keeps_statics) take_statics(*built, *state_);
-  for (const auto& model : built->models) place_frames(*built, *model);
   place_frames(*built, *state_->scene_frames);
   built->scene_frames = std::move(state_->scene_frames);
   if (!keeps_statics || state_->statics_stale) gather_statics(*built);

@@ -3,9 +3,9 @@
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/world_wrenches.hpp"
-#include "check/checks.hpp"
 #include "physics/world/state.hpp"
 #include "scene/describe.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "bubblesim/sensor_noise.hpp"
-#include "check/checks.hpp"
 #include "rays/hit_groups.hpp"
 #include "rays/packet_math.hpp"
 #include "rays/ray_scene.hpp"
@@ -16,6 +15,7 @@
 #include "sensors/define.hpp"
 #include "sensors/shading.hpp"
 #include "sensors/worker_pool.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "bubblesim/sensor_noise.hpp"
-#include "check/checks.hpp"
 #include "rays/packet_math.hpp"
 #include "rays/ray_scene.hpp"
 #include "scene/describe.hpp"
 #include "sensors/define.hpp"
 #include "sensors/worker_pool.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

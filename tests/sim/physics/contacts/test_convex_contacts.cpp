@@ -150,7 +150,7 @@ TEST(ConvexDrop, ConcaveMeshesComeToRest) {
        5);
 }
 
-TEST(ConvexContact, AnLCollidesAsTheDescriptionSays) {
+TEST(ConvexContact, AnLCollidesAsTheDescriptionStates) {
   const Mesh iron = angle_iron();
   const auto prepared = [&](MeshUse use) { return collision_mesh(iron.triangles, use); };
   EXPECT_EQ(prepared(MeshUse::kMoving)->parts.size(), 2U);

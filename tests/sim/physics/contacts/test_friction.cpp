@@ -223,7 +223,7 @@ TEST(LockedWheels, StopInTheSameDistanceInAnyDirection) {
   }
 }
 
-TEST(SkidSteer, TurnsAsTheConeSays) {
+TEST(SkidSteer, TurnsAsTheConeAllows) {
   for (const auto& [half_base, half_track] : {std::pair{0.25, 0.2}, std::pair{0.15, 0.3}, std::pair{0.3, 0.15}}) {
     World world(scene({floor(), cart({{half_base, half_track},
                                       {half_base, -half_track},
@@ -247,7 +247,7 @@ TEST(SkidSteer, TurnsAsTheConeSays) {
   }
 }
 
-/// A robot that turns on the spot on two cylinder wheels, with frictionless castors in front and behind.
+/// A robot that turns in place on two cylinder wheels, with frictionless castors in front and behind.
 double spin_with_castors(double mu, double step) {
   LinkDescription base = solid("base", 10, {0.5, 0.4, 0.1});
   base.centre_of_mass = {0, 0, 0.1};

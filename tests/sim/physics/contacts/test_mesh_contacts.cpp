@@ -91,9 +91,9 @@ TEST(MeshContact, ASurfaceThatIsTooFineIsSimplifiedWithinAMillimetre) {
     }
     EXPECT_NEAR(middle.z(), wave(static_cast<float>(middle.x()), static_cast<float>(middle.y())), 0.001);
   }
-  const auto fine_enough = collision_mesh(fine_ground(60, wave), MeshUse::kStatic);
-  EXPECT_EQ(fine_enough->indices.size(), 3U * 2 * 60 * 60);
-  EXPECT_EQ(fine_enough->remark, "");
+  const auto fine = collision_mesh(fine_ground(60, wave), MeshUse::kStatic);
+  EXPECT_EQ(fine->indices.size(), 3U * 2 * 60 * 60);
+  EXPECT_EQ(fine->remark, "");
 }
 
 TEST(MeshContact, EveryShapeRestsOnTriangles) {

@@ -149,7 +149,7 @@ TEST(Robot, StandsOnWheelsThatTouchInManyPoints) {
   for (const int shapes : {1, 2, 3}) expect_to_stand(shapes, 0.001);
 }
 
-TEST(Robot, StandsOnMeshesAfterTurningOnTheSpot) {
+TEST(Robot, StandsOnMeshesAfterTurningInPlace) {
   World world(scene({floor(), rover()}), 3);
   const auto turn = [&world](double speed) {
     for (const std::string row : {"front", "rear"}) {

@@ -140,7 +140,7 @@ TEST(Slip, LetsThingsSlideAtASpeedByTheForce) {
   EXPECT_NEAR(world.velocity(world.tree().find("/Thing")).linear.norm(), 0.2 * 9.81 * std::sin(0.1), 0.01);
 }
 
-TEST(Torsion, BrakesASpinOnTheSpot) {
+TEST(Torsion, BrakesASpinInPlace) {
   Surface rough;
   rough.torsion = 0.02;
   Fall fall(rough, Surface{}, Sphere{0.3}, at(0, 0, 0.3));

@@ -141,7 +141,7 @@ TEST_F(Devices, CommandJoints) {
   EXPECT_NEAR(arm.joints().position(arm.tree().find("/joint")), 0.5, 1e-6) << "a PD controller at 1 kHz";
 }
 
-TEST_F(Devices, AreToldOfAReset) {
+TEST_F(Devices, AreNotifiedOfAReset) {
   const auto device = add(100);
   world.advance(0.003, kMillisecond);
   world.reset();

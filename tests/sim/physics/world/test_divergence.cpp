@@ -37,7 +37,7 @@ struct Witness : System {
   std::vector<std::string> removed;
 };
 
-TEST(Divergence, ThrowsAndTellsWhereTheLastStatesAre) {
+TEST(Divergence, ThrowsAndStatesWhereTheLastStatesAre) {
   Leaving leaving(OnDivergence::kPause);
   std::string reported;
   try {
@@ -81,7 +81,7 @@ TEST(Divergence, WritesOneFileThatOnlyItsUserCanRead) {
   std::filesystem::remove(next);
 }
 
-TEST(Divergence, ResetsTheWorldWhenTheSceneSaysSo) {
+TEST(Divergence, ResetsTheWorldWhenTheSceneAsksForIt) {
   Leaving leaving(OnDivergence::kReset);
   leaving.simulation.step();
   const World& world = leaving.simulation.world();
@@ -89,7 +89,7 @@ TEST(Divergence, ResetsTheWorldWhenTheSceneSaysSo) {
   EXPECT_NO_THROW(leaving.simulation.step());
 }
 
-TEST(Divergence, RemovesTheModelWhenTheSceneSaysSo) {
+TEST(Divergence, RemovesTheModelWhenTheSceneAsksForIt) {
   Leaving leaving(OnDivergence::kRemove);
   Witness witness;
   leaving.simulation.add(witness);

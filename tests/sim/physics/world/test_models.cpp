@@ -276,7 +276,7 @@ struct Watcher : System {
   std::vector<std::string> reported;
 };
 
-TEST(Systems, AreToldOfModelsThatComeAndGo) {
+TEST(Systems, AreNotifiedOfModelsThatAreAddedAndRemoved) {
   Simulation simulation(scene(heap()));
   Watcher watcher(simulation);
   simulation.remove_model(simulation.add_model(robot({})));

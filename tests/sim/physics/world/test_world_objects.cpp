@@ -38,7 +38,7 @@ class RobotWorld : public ::testing::Test {
   World world{described, 0};
 };
 
-TEST_F(RobotWorld, PosesAreWhereTheSceneSays) {
+TEST_F(RobotWorld, PosesAreWhereTheSceneStates) {
   const ModelDescription& model = described.models[0];
   expect_near(world.pose(find("/Robot")), model.pose, 1e-12);
   expect_near(world.pose(find("/base")), model.pose * model.links[0].pose, 1e-12);

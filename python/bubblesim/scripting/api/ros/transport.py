@@ -32,7 +32,7 @@ def read_transport_hints(given: Mapping[str, Any] | None) -> TransportHints:
     if given is None:
         return TransportHints()
     if not isinstance(given, Mapping):
-        raise TypeError(f"transport hints must be a table, found {shown(given)}")
+        raise TypeError(f"transport hints must be a dict, found {shown(given)}")
     for key in given:
         if key not in _KEYS:
             raise ValueError(f"transport hints have no {key!r}; valid keys: {', '.join(_KEYS)}")

@@ -91,11 +91,13 @@ std::vector<Line> lines_of_table(const std::vector<const SensorDefinition*>& sen
     }
   }
   std::vector<Line> lines;
-  for (Line& line : lines_of(kElementTable)) {
-    if (line.words.front() == "&sensor_kinds") {
-      lines.insert(lines.end(), below.begin(), below.end());
-    } else {
-      lines.push_back(std::move(line));
+  for (const char* table : {kShapeTable, kModelTable, kWorldTable}) {
+    for (Line& line : lines_of(table)) {
+      if (line.words.front() == "&sensor_kinds") {
+        lines.insert(lines.end(), below.begin(), below.end());
+      } else {
+        lines.push_back(std::move(line));
+      }
     }
   }
   lines.insert(lines.end(), definitions.begin(), definitions.end());

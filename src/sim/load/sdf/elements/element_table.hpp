@@ -3,7 +3,8 @@
 
 namespace bubblesim {
 
-/// The table of elements; element_kinds.cpp reads it. One element a line, its children indented below it:
+/// The table of elements, in three parts; element_kinds.cpp reads it. One element a line, its children indented below
+/// it:
 ///
 ///   NAME TYPE [DEFAULT] [MIN..MAX] [required] [~ REASON | ! REASON]
 ///
@@ -12,6 +13,8 @@ namespace bubblesim {
 /// stands for the children of the element that is defined under that name by a line `=NAME` at the start. Names, types,
 /// defaults and ranges are those of the specification of SDFormat (sdformat.org/spec). `&sensor_kinds` stands for the
 /// lines of all kinds of sensors (SensorDefinition::elements), sorted.
-extern const char* const kElementTable;
+extern const char* const kShapeTable;  ///< geometries, materials, surfaces and lights
+extern const char* const kModelTable;  ///< models and their parts
+extern const char* const kWorldTable;  ///< worlds and files
 
 }  // namespace bubblesim

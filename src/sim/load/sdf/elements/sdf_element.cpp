@@ -3,10 +3,11 @@
 
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
+
+#include "scene/describe.hpp"
 
 namespace bubblesim {
 namespace {
@@ -115,12 +116,7 @@ bool read_numbers(std::string_view text, std::vector<double>& numbers) {
 
 std::string write_numbers(const std::vector<double>& numbers) {
   std::string text;
-  for (const double number : numbers) {
-    std::array<char, 32> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr;
-    if (!text.empty()) text += ' ';
-    text.append(buffer.data(), end);
-  }
+  for (const double number : numbers) text += (text.empty() ? "" : " ") + exact(number);
   return text;
 }
 

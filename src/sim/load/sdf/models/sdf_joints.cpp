@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "bubblesim/nearest_names.hpp"
-#include "check/checks.hpp"
 #include "load/sdf/elements/own_elements.hpp"
 #include "load/sdf/models/sdf_names_and_axes.hpp"
 #include "load/sdf/models/sdf_sensors.hpp"
 #include "load/sdf/models/sdf_tree.hpp"
 #include "scene/describe.hpp"
 #include "scene/joint_kind.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

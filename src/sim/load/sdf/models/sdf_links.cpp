@@ -7,8 +7,6 @@
 #include <variant>
 
 #include "bubblesim/nearest_names.hpp"
-#include "check/checks.hpp"
-#include "check/scene_check.hpp"
 #include "load/sdf/elements/own_elements.hpp"
 #include "load/sdf/models/nearest_inertia.hpp"
 #include "load/sdf/models/sdf_geometry.hpp"
@@ -19,6 +17,8 @@
 #include "load/sdf/models/sdf_visuals.hpp"
 #include "meshes/mesh_error.hpp"
 #include "scene/describe.hpp"
+#include "validation/limits.hpp"
+#include "validation/scene_check.hpp"
 
 namespace bubblesim {
 namespace {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "bubblesim/nearest_names.hpp"
-#include "check/checks.hpp"
 #include "load/sdf/elements/own_elements.hpp"
 #include "load/sdf/models/frames.hpp"
 #include "load/sdf/models/sdf_models.hpp"
@@ -20,6 +19,7 @@
 #include "load/sdf/worlds/sdf_randomize.hpp"
 #include "load/sdf/worlds/sdf_state.hpp"
 #include "load/substeps.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

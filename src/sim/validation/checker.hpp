@@ -3,6 +3,8 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -20,8 +22,12 @@ class Checker {
   void check_pose(const Pose& pose);
   void check_length(const char* what, double value);
   void check_color(const char* what, const Color& color);
+  /// From here on, links and joints are those of this model.
+  void enter(const ModelDescription& model);
   /// Reports a problem unless the model has a link of this name.
-  void check_link_name(const ModelDescription& model, const std::string& name, const std::string& role);
+  void check_link_name(const std::string& name, const std::string& role);
+  /// Null when the model has no such joint.
+  const JointDescription* joint_named(const std::string& name) const;
 
   bool found_any() const { return !problems_.empty(); }
   std::vector<Problem> found() { return std::move(problems_); }
@@ -30,6 +36,8 @@ class Checker {
   Source source_;
   std::string object_;
   std::vector<Problem> problems_;
+  std::unordered_map<std::string_view, const LinkDescription*> links_;  // by name, of the model
+  std::unordered_map<std::string_view, const JointDescription*> joints_;
 };
 
 /// The checks of each file; they set the checker's object with at().

@@ -4,12 +4,12 @@
 #include <set>
 #include <string>
 
-#include "check/checker.hpp"
+#include "validation/checker.hpp"
 
 namespace bubblesim {
 namespace {
 
-/// Finds places that are used twice, lead nowhere, or go round in circles.
+/// Finds places that are used twice, lead nowhere, or form circles.
 class PlaceCheck {
  public:
   explicit PlaceCheck(Checker& checker) : checker_(checker) {}
@@ -26,12 +26,13 @@ class PlaceCheck {
 
   /// `is_whole`: the parents of all are among them.
   void finish(bool is_whole) {
+    const std::set<int> below_themselves = circles();
     for (const auto& [id, place] : places_) {
       checker_.at(place.source, place.path);
       if (is_whole && place.parent >= 0 && places_.count(place.parent) == 0) {
         checker_.report("its parent in the tree, " + std::to_string(place.parent) + ", is the place of no object");
       }
-      if (is_below_itself(id)) checker_.report("it is below itself in the tree");
+      if (below_themselves.count(id) > 0) checker_.report("it is below itself in the tree");
     }
   }
 
@@ -42,14 +43,17 @@ class PlaceCheck {
     std::string path;
   };
 
-  bool is_below_itself(int id) const {
-    std::set<int> passed;
-    for (auto place = places_.find(places_.at(id).parent); place != places_.end();
-         place = places_.find(place->second.parent)) {
-      if (place->first == id) return true;
-      if (!passed.insert(place->first).second) return false;  // others go round: they report it
+  /// The places that are below themselves. Each is passed once: a tree may be as deep as the file has objects.
+  std::set<int> circles() const {
+    std::set<int> found;
+    std::map<int, int> starts;  // by place: where the way up began that passed it first
+    for (const auto& [id, place] : places_) {
+      int at = id;
+      while (places_.count(at) > 0 && starts.emplace(at, id).second) at = places_.at(at).parent;
+      if (places_.count(at) == 0 || starts.at(at) != id) continue;
+      for (int up = at; found.insert(up).second;) up = places_.at(up).parent;
     }
-    return false;
+    return found;
   }
 
   Checker& checker_;

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "check/needed_substep.hpp"
 #include "scenes.hpp"
+#include "validation/needed_substep.hpp"
 
 namespace bubblesim::test::test_needed_substep {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checks whether the shapes of a link and their materials can be simulated.
-#include "check/checker.hpp"
-#include "check/checks.hpp"
 #include "scene/describe.hpp"
+#include "validation/checker.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "check/needed_substep.hpp"
+#include "validation/needed_substep.hpp"
 
 #include <algorithm>
 #include <cmath>

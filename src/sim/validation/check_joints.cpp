@@ -5,11 +5,11 @@
 #include <limits>
 
 #include "bubblesim/nearest_names.hpp"
-#include "check/checker.hpp"
-#include "check/checks.hpp"
-#include "check/scene_check.hpp"
 #include "scene/describe.hpp"
 #include "scene/joint_kind.hpp"
+#include "validation/checker.hpp"
+#include "validation/limits.hpp"
+#include "validation/scene_check.hpp"
 
 namespace bubblesim {
 namespace {
@@ -36,21 +36,14 @@ void check_axis(Checker& checker, const AxisDescription& axis) {
                   "finite and at most 1e6");
 }
 
-const JointDescription* joint_named(const ModelDescription& model, const std::string& name) {
-  for (const JointDescription& joint : model.joints) {
-    if (joint.name == name) return &joint;
-  }
-  return nullptr;
-}
-
 /// Whether the chain of mimicked joints leads back to this joint.
-bool follows_itself(const ModelDescription& model, const JointDescription& joint) {
+bool follows_itself(const Checker& checker, const ModelDescription& model, const JointDescription& joint) {
   const JointDescription* leader = &joint;
   for (std::size_t i = 0; i <= model.joints.size(); ++i) {
     const auto following = std::find_if(leader->axes.begin(), leader->axes.end(),
                                         [](const AxisDescription& axis) { return axis.mimic.has_value(); });
     if (following == leader->axes.end()) return false;
-    leader = joint_named(model, following->mimic->joint);
+    leader = checker.joint_named(following->mimic->joint);
     if (leader == nullptr) return false;
   }
   return true;
@@ -61,7 +54,7 @@ void check_mimic(Checker& checker, const ModelDescription& model, const JointDes
   for (const double value : {mimic.multiplier, mimic.offset, mimic.reference}) {
     checker.require(within(value, kMaxDistance), "a number of <mimic>", text(value), "finite and at most 1e6");
   }
-  const JointDescription* leader = joint_named(model, mimic.joint);
+  const JointDescription* leader = checker.joint_named(mimic.joint);
   if (leader == nullptr) {
     std::vector<std::string> names;
     for (const JointDescription& known : model.joints) names.push_back(known.name);
@@ -69,7 +62,7 @@ void check_mimic(Checker& checker, const ModelDescription& model, const JointDes
                    did_you_mean(mimic.joint, names));
   } else if (mimic.axis < 0 || mimic.axis >= static_cast<int>(leader->axes.size())) {
     checker.report("mimics an axis of '" + mimic.joint + "' that this joint does not have");
-  } else if (follows_itself(model, joint)) {
+  } else if (follows_itself(checker, model, joint)) {
     checker.report("mimics itself through '" + mimic.joint + "': one joint of the chain must not mimic another");
   }
 }
@@ -87,8 +80,8 @@ const JointDescription* hinge_between(const ModelDescription& model, const std::
 
 void check_joint(Checker& checker, const ModelDescription& model, const JointDescription& joint) {
   checker.check_pose(joint.pose);
-  if (joint.parent != "world") checker.check_link_name(model, joint.parent, "parent");
-  checker.check_link_name(model, joint.child, "child");
+  if (joint.parent != "world") checker.check_link_name(joint.parent, "parent");
+  checker.check_link_name(joint.child, "child");
   if (joint.parent == joint.child) checker.report("connects the link '" + joint.parent + "' with itself");
   const JointKind* kind = find_joint_kind(joint.type);
   if (kind == nullptr) {

@@ -7,9 +7,9 @@
 
 #include "bubblesim/nearest_names.hpp"
 #include "bubblesim/sensor_definition.hpp"
-#include "check/checker.hpp"
-#include "check/checks.hpp"
 #include "scene/describe.hpp"
+#include "validation/checker.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {

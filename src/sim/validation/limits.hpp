@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks of numbers that would make the physics abort or diverge.
+// Limits of numbers: beyond them, the physics would abort or diverge.
 #pragma once
 
 #include <cmath>

@@ -7,8 +7,8 @@
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/world.hpp"
-#include "check/scene_check.hpp"
 #include "scenes.hpp"
+#include "validation/scene_check.hpp"
 
 namespace bubblesim::test::test_scene_check {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "check/checker.hpp"
+#include "validation/checker.hpp"
 
 #include <utility>
 
 #include "bubblesim/nearest_names.hpp"
 #include "bubblesim/scene_tree.hpp"
-#include "check/checks.hpp"
 #include "scene/describe.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 
@@ -39,13 +39,23 @@ void Checker::check_color(const char* what, const Color& color) {
           "red, green and blue from 0 to 1");
 }
 
-void Checker::check_link_name(const ModelDescription& model, const std::string& name, const std::string& role) {
+void Checker::enter(const ModelDescription& model) {
+  links_.clear();
+  joints_.clear();
+  for (const LinkDescription& link : model.links) links_.emplace(link.name, &link);
+  for (const JointDescription& joint : model.joints) joints_.emplace(joint.name, &joint);
+}
+
+void Checker::check_link_name(const std::string& name, const std::string& role) {
+  if (links_.count(name) > 0) return;
   std::vector<std::string> names;
-  for (const LinkDescription& link : model.links) {
-    if (link.name == name) return;
-    names.push_back(link.name);
-  }
+  for (const auto& [known, link] : links_) names.emplace_back(known);
   report("the " + role + " '" + name + "' is not a link of this model" + did_you_mean(name, names));
+}
+
+const JointDescription* Checker::joint_named(const std::string& name) const {
+  const auto found = joints_.find(name);
+  return found == joints_.end() ? nullptr : found->second;
 }
 
 }  // namespace bubblesim

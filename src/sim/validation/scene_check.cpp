@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "check/scene_check.hpp"
+#include "validation/scene_check.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
 
-#include "check/checker.hpp"
-#include "check/checks.hpp"
 #include "scene/describe.hpp"
+#include "validation/checker.hpp"
+#include "validation/limits.hpp"
 
 namespace bubblesim {
 namespace {
@@ -75,6 +75,7 @@ void check_environment(Checker& checker, const Environment& environment) {
 }
 
 void check_model(Checker& checker, const ModelDescription& model) {
+  checker.enter(model);
   checker.at(model.source, "/" + model.name);
   check_name(checker, model.name);
   checker.check_pose(model.pose);
@@ -96,15 +97,15 @@ void check_model(Checker& checker, const ModelDescription& model) {
   for (const NestedModelDescription& nested : model.nested) {
     once(nested.source, nested.name);
     checker.check_pose(nested.pose);
-    if (!nested.canonical_link.empty()) checker.check_link_name(model, nested.canonical_link, "canonical link");
+    if (!nested.canonical_link.empty()) checker.check_link_name(nested.canonical_link, "canonical link");
   }
   for (const FrameDescription& frame : model.frames) {
     once(frame.source, frame.name);
     checker.check_pose(frame.pose);
-    if (!frame.link.empty()) checker.check_link_name(model, frame.link, "carrying link");
+    if (!frame.link.empty()) checker.check_link_name(frame.link, "carrying link");
   }
   checker.at(model.source, "/" + model.name);
-  if (!model.canonical_link.empty()) checker.check_link_name(model, model.canonical_link, "canonical link");
+  if (!model.canonical_link.empty()) checker.check_link_name(model.canonical_link, "canonical link");
 }
 
 void check_scene(Checker& checker, const SceneDescription& scene) {
