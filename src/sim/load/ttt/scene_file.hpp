@@ -33,7 +33,7 @@ struct Part {
   bool has_hole = false;  ///< in the primitive
   bool is_convex = false;
   bool is_wireframe = false;  ///< only its edges are drawn
-  Rgb color{0.7, 0.7, 0.7};  ///< ambient and diffuse
+  Rgb color{0.7, 0.7, 0.7};   ///< ambient and diffuse
   Rgb emission{0, 0, 0};
   double opacity = 1;
   int texture = -1;                                       ///< id of a texture or handle of a vision sensor; -1: none
