@@ -19,14 +19,10 @@
 #include "bubblesim/math.hpp"
 #include "bubblesim/random_quantity.hpp"
 #include "bubblesim/sensor_kinds.hpp"
+#include "bubblesim/source.hpp"
+#include "bubblesim/transmission.hpp"
 
 namespace bubblesim {
-
-/// Location in a file, for error messages.
-struct Source {
-  std::string file;
-  int line = 0;
-};
 
 struct Box {
   Vector3 size;  ///< full lengths along x, y, z
@@ -330,26 +326,6 @@ struct FrameDescription {
   /// anywhere in the scene, as the mimic of its axis. It turns about the z axis of the frame, or slides along it.
   std::optional<JointDescription> joint{};
   double joint_position = 0;  ///< of a joint, at the start: rad or m
-};
-
-struct TransmissionJoint {
-  std::string name;
-  std::vector<std::string> hardware_interfaces;  ///< such as hardware_interface/EffortJointInterface
-};
-
-struct TransmissionActuator {
-  std::string name;
-  double mechanical_reduction = 1;  ///< motor angle = reduction * joint angle
-  std::vector<std::string> hardware_interfaces;
-};
-
-/// A <transmission> of URDF: which interfaces ros_control gives to a joint. It has no effect on the physics.
-struct TransmissionDescription {
-  std::string name;
-  std::string type;  ///< such as transmission_interface/SimpleTransmission
-  std::vector<TransmissionJoint> joints;
-  std::vector<TransmissionActuator> actuators;
-  Source source;
 };
 
 /// A nested model. Its links and joints are in the lists of the outermost model, named `inner::link`.

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Transmissions of URDF, kept as data for ros_control.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bubblesim/source.hpp"
+
+namespace bubblesim {
+
+struct TransmissionJoint {
+  std::string name;
+  std::vector<std::string> hardware_interfaces;  ///< such as hardware_interface/EffortJointInterface
+};
+
+struct TransmissionActuator {
+  std::string name;
+  double mechanical_reduction = 1;  ///< motor angle = reduction * joint angle
+  std::vector<std::string> hardware_interfaces;
+};
+
+/// A <transmission> of URDF: which interfaces ros_control gives to a joint. It has no effect on the physics.
+struct TransmissionDescription {
+  std::string name;
+  std::string type;  ///< such as transmission_interface/SimpleTransmission
+  std::vector<TransmissionJoint> joints;
+  std::vector<TransmissionActuator> actuators;
+  Source source;
+};
+
+}  // namespace bubblesim
