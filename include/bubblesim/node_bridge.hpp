@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bubblesim/messages/bridge.hpp"
+#include "bubblesim/node_graph.hpp"
 #include "bubblesim/run_report.hpp"
 
 namespace bubblesim {
@@ -50,6 +51,9 @@ class NodeBridge : public messages::Bridge {
   /// Leaves the network, as the destructor does. Thread-safe; for use before the process is killed. Returns whether all
   /// is done.
   virtual bool leave() = 0;
+
+  /// The other nodes' topics and services. Waits for the master of ROS 1, at most two seconds; empty without one.
+  virtual NodeGraph graph() = 0;
 
   /// Full name, such as `/sim_ros_interface`.
   virtual std::string node_name() const = 0;

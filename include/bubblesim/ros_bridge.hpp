@@ -78,6 +78,7 @@ class RosBridge final : public NodeBridge {
   void publish_clock(double sim_time) override;
   void shutdown_endpoints() override;
   void publish_diagnostics() override;
+  NodeGraph graph() override;
   std::string node_name() const override;
 
   /// Whether the node is registered at a master that responded to the last check (four checks a second).

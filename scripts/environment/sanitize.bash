@@ -1,30 +1,105 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds the core and its tests with GCC's sanitizers and runs them: first threads, then addresses and undefined
-# behaviour. For scripts/test. The core needs neither ROS nor Python.
+# Builds with GCC's sanitizers and runs tests: the core with ThreadSanitizer, then all with AddressSanitizer and
+# UndefinedBehaviorSanitizer. For scripts/test; see CONTRIBUTING.md.
 #
-#   run_sanitizers ROOT [GTEST_FILTER]
+#   run_sanitizers ROOT [GTEST_FILTER]     with a filter only C++ tests
+
+# What C++ does for Python and for ROS.
+PYTHON_TESTS=(tests/bindings tests/ros1 tests/scripting tests/app)
 
 run_sanitizers() {
-  local root=$1 filter=${2:-*} kind build program failed=0
-  local suppressions=$root/tests/sanitizers
-  for kind in thread address,undefined; do
-    build=$root/.ws/sanitize/${kind//,/-}  # a comma in a path ends an option for the linker
-    mkdir -p "$(dirname "$build")"
-    # -Wno-tsan: ThreadSanitizer does not know fences. The frames in shared memory have some; their readers map the memory
-    # a second time, so it does not compare the accesses anyway.
-    echo "[sanitize] building with -fsanitize=$kind in $build"
-    cmake -S "$root" -B "$build" -DBUBBLESIM_SANITIZE="$kind" -DBUBBLESIM_WITH_ROS=OFF -DBUBBLESIM_WITH_PYTHON=OFF \
-      -DBUBBLESIM_BUILD_TESTS=ON -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="-O1 -g1 -Wno-tsan" \
-      -DBUBBLESIM_VIRTUAL_ENV="$root/.ws/venv" > "$build.log" 2>&1 || { cat "$build.log"; return 1; }
-    cmake --build "$build" -j "$(nproc)" >> "$build.log" 2>&1 || { tail -n 50 "$build.log"; return 1; }
-    for program in "$build"/tests/{codec,sim}/test_*; do
-      [[ -f $program && -x $program ]] || continue
-      echo "[sanitize] $kind: $(basename "$program")"
-      # ThreadSanitizer needs addresses that are not randomised; the path must not lead to the workspace's libraries.
-      TSAN_OPTIONS="suppressions=$suppressions/thread.supp exitcode=66" \
-        LSAN_OPTIONS="suppressions=$suppressions/leak.supp" UBSAN_OPTIONS="print_stacktrace=1 halt_on_error=1" \
-        env -u LD_LIBRARY_PATH setarch -R "$program" --gtest_brief=1 --gtest_filter="$filter" || failed=1
-    done
-  done
+  local root=$1 filter=${2:-*} failed=0
+  build_sanitized "$root" thread OFF || return 1
+  run_cpp_tests "$root" thread "$filter" || failed=1
+  build_sanitized "$root" address,undefined ON || return 1
+  run_cpp_tests "$root" address,undefined "$filter" || failed=1
+  [[ $filter != '*' ]] || run_python_tests "$root" || failed=1
   return $failed
+}
+
+# The folder of a build; a comma in a path ends an option for the linker.
+sanitized_folder() { echo "$1/.ws/sanitize/${2//,/-}"; }
+
+# build_sanitized ROOT KIND WITH: WITH ROS and Python or without.
+build_sanitized() {
+  local root=$1 kind=$2 with=$3 build ros2=OFF
+  build=$(sanitized_folder "$root" "$kind")
+  [[ $with == OFF ]] || ! grep -qx ros2 "$root/.ws/groups" || ros2=ON
+  mkdir -p "$(dirname "$build")"
+  echo "[sanitize] building with -fsanitize=$kind in $build"
+  # -Wno-tsan: ThreadSanitizer does not know fences. The frames in shared memory have some; their readers map the memory
+  # a second time, so it does not compare the accesses anyway. Without the caller's workspaces, whose libraries are built
+  # without sanitizers.
+  env -u CMAKE_PREFIX_PATH -u ROS_PACKAGE_PATH -u PYTHONPATH -u LD_LIBRARY_PATH -u PKG_CONFIG_PATH \
+    cmake -S "$root" -B "$build" -DBUBBLESIM_SANITIZE="$kind" -DBUBBLESIM_WITH_ROS="$with" -DBUBBLESIM_WITH_PYTHON="$with" \
+    -DBUBBLESIM_WITH_ROS2="$ros2" -DBUBBLESIM_BUILD_NODES=OFF -DBUBBLESIM_NODE= -DBUBBLESIM_BUILD_TESTS=ON -DCMAKE_BUILD_TYPE=None \
+    -DCMAKE_CXX_FLAGS="-O1 -g1 -Wno-tsan" -DBUBBLESIM_VIRTUAL_ENV="$root/.ws/venv" > "$build.log" 2>&1 ||
+    { cat "$build.log"; return 1; }
+  env -u CMAKE_PREFIX_PATH -u ROS_PACKAGE_PATH -u PYTHONPATH -u LD_LIBRARY_PATH -u PKG_CONFIG_PATH \
+    cmake --build "$build" -j "$(nproc)" >> "$build.log" 2>&1 || { tail -n 50 "$build.log"; return 1; }
+}
+
+# Uses a build and its workspace, if it has ROS, not those of the caller; in a subshell.
+use_sanitized() {
+  local root=$1 build=$2
+  unset CMAKE_PREFIX_PATH ROS_PACKAGE_PATH PYTHONPATH LD_LIBRARY_PATH
+  [[ -e $build/devel/setup.bash ]] || return 0
+  set +u  # as in activate.bash
+  # shellcheck disable=SC1091  # made by the build
+  source "$build/devel/setup.bash"
+  set -u
+  export PATH=$root/.ws/venv/bin:/usr/bin:/bin:$PATH
+}
+
+# run_cpp_tests ROOT KIND FILTER
+run_cpp_tests() (
+  local root=$1 kind=$2 filter=$3 build program failed=0
+  local suppressions=$root/tests/sanitizers
+  build=$(sanitized_folder "$root" "$kind")
+  use_sanitized "$root" "$build"
+  while read -r program; do
+    echo "[sanitize] $kind: $(basename "$program")"
+    # ThreadSanitizer needs addresses that are not randomised.
+    TSAN_OPTIONS="suppressions=$suppressions/thread.supp exitcode=66" \
+      LSAN_OPTIONS="suppressions=$suppressions/leak.supp" UBSAN_OPTIONS="print_stacktrace=1 halt_on_error=1" \
+      PYTHONMALLOC=malloc setarch -R "$program" --gtest_brief=1 --gtest_filter="$filter" || failed=1
+  done < <(find "$build/tests" "$build/devel/lib/bubblesim" -name 'test_*' -type f -executable ! -name '*.*' 2>/dev/null | sort)
+  return $failed
+)
+
+# The Python tests of what C++ does for Python and ROS. Reports go to files: some tests expect that a program fails.
+run_python_tests() (
+  local root=$1 build reports failed=0
+  build=$(sanitized_folder "$root" address,undefined)
+  reports=$build/reports
+  rm -rf "$reports"
+  mkdir -p "$reports"
+  use_sanitized "$root" "$build"
+  export BUBBLESIM_BUILD_DIR=$build/devel PYTHONMALLOC=malloc
+  # Of Python, which is built without: libstdc++ too, because libasan takes the functions for exceptions from it.
+  export LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libstdc++.so)"
+  export UBSAN_OPTIONS="log_path=$reports/undefined print_stacktrace=1 halt_on_error=1"
+  export LSAN_OPTIONS="suppressions=$root/tests/sanitizers/leak.supp print_suppressions=0 exitcode=0"
+  export ASAN_OPTIONS="log_path=$reports/address detect_leaks=1"
+  cd "$root" || return 1
+  echo "[sanitize] address,undefined: Python tests"
+  python tests/sanitizers/run_pytest.py -q -p no:cacheprovider "${PYTHON_TESTS[@]}" || failed=1
+  print_reports "$reports" "$root" || failed=1
+  return $failed
+)
+
+# print_reports FOLDER ROOT: returns 1 if there are any. Of leaks only those that code of the build has allocated:
+# Python keeps some memory until its end, and its frames cannot be suppressed by name, because they call our code.
+print_reports() {
+  local report found=0
+  for report in "$1"/*; do
+    [[ -e $report ]] || continue
+    if grep -q 'LeakSanitizer: detected' "$report"; then
+      awk -v RS= -v ORS='\n\n' -v ours="$2" 'index($0, ours) { print; found = 1 } END { exit !found }' "$report" || continue
+    else
+      cat "$report"
+    fi
+    found=1
+  done
+  return $found
 }

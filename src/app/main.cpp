@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bridges.hpp"
 #include "bubblesim/error.hpp"
@@ -18,6 +19,7 @@
 #include "bubblesim/warnings.hpp"
 #include "options.hpp"
 #include "output.hpp"
+#include "ros_args.hpp"
 #include "session.hpp"
 #include "stop_signal.hpp"
 #include "web_server.hpp"
@@ -68,8 +70,14 @@ int run_node(Options& options, int& argc, char** argv) {
   return session->finish();
 }
 
-int run(int argc, char** argv) {
+int run(int given, char** given_arguments) {
   try {
+    std::vector<std::string> arguments = with_plain_ros_args(given, given_arguments);
+    std::vector<char*> pointers;
+    for (std::string& argument : arguments) pointers.push_back(argument.data());
+    int argc = static_cast<int>(pointers.size());
+    pointers.push_back(nullptr);
+    char** argv = pointers.data();
     ParsedOptions parsed = parse_options(argc, argv);
     if (parsed.options) remove_xacro_arguments(*parsed.options, argc, argv);
     const int exit_code = parsed.options ? run_node(*parsed.options, argc, argv) : parsed.exit_code;

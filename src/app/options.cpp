@@ -109,7 +109,7 @@ ParsedOptions parse_options(int argc, char** argv) {
   CLI::App app("Runs a robot scene with its child scripts as a ROS node.", "sim");
   app.footer(
       "Exit codes: 0 success, 1 stdout is full or closed, 2 bad input, 3 a script failed, 4 the physics diverged.\n"
-      "ROS remappings (name:=value) are accepted; in a xacro scene they are also arguments of xacro.");
+      "ROS remappings (name:=value, --ros-args) are accepted; in a xacro scene they are also arguments of xacro.");
   app.set_version_flag("--version", std::string("bubblesim ") + BUBBLESIM_VERSION);
   app.add_option("SCENE", options.scene,
                  "scene name, or path of an .sdf file; with --remote it may be left to the clients");

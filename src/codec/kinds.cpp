@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of field kinds.
+// The names of field kinds, the sizes and defaults of fields.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -7,40 +7,18 @@
 #include <string>
 
 #include "bubblesim/messages/message_type.hpp"
-#include "bubblesim/messages/numbers.hpp"
 
 namespace bubblesim::messages {
 namespace {
 
-struct KindRow {
-  std::string_view name;
-  std::uint32_t wire_size;
-};
-
 // In the order of FieldKind.
-constexpr std::array<KindRow, 15> kKinds{{
-    {"bool", 1},
-    {"int8", 1},
-    {"uint8", 1},
-    {"int16", 2},
-    {"uint16", 2},
-    {"int32", 4},
-    {"uint32", 4},
-    {"int64", 8},
-    {"uint64", 8},
-    {"float32", 4},
-    {"float64", 8},
-    {"string", 0},
-    {"time", 8},
-    {"duration", 8},
-    {"message", 0},
-}};
+constexpr std::array<std::string_view, 15> kNames{"bool",    "int8",   "uint8", "int16",    "uint16",
+                                                  "int32",   "uint32", "int64", "uint64",   "float32",
+                                                  "float64", "string", "time",  "duration", "message"};
 
 }  // namespace
 
-std::uint32_t wire_size(FieldKind kind) { return kKinds[static_cast<std::size_t>(kind)].wire_size; }
-
-std::string_view kind_name(FieldKind kind) { return kKinds[static_cast<std::size_t>(kind)].name; }
+std::string_view kind_name(FieldKind kind) { return kNames[static_cast<std::size_t>(kind)]; }
 
 std::string type_text(const Field& field) {
   const std::string base = field.message != nullptr ? field.message->name : std::string(kind_name(field.kind));
@@ -55,14 +33,9 @@ std::string type_text(const Field& field) {
 }
 
 FieldKind kind_of(std::string_view name) {
-  const auto found = std::find_if(kKinds.begin(), kKinds.end(), [&](const KindRow& row) { return row.name == name; });
-  if (found == kKinds.end()) throw std::invalid_argument("'" + std::string(name) + "' is not a kind of field");
-  return static_cast<FieldKind>(found - kKinds.begin());
-}
-
-std::uint32_t alignment(FieldKind kind) {
-  if (is_number(kind)) return wire_size(kind);
-  return kind == FieldKind::kMessage ? 1 : sizeof(std::uint32_t);  // lengths, seconds
+  const auto found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end()) throw std::invalid_argument("'" + std::string(name) + "' is not a kind of field");
+  return static_cast<FieldKind>(found - kNames.begin());
 }
 
 std::size_t minimum_size(const MessageType& type) {

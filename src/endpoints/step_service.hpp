@@ -3,38 +3,36 @@
 
 #include <array>
 #include <atomic>
-#include <cstdint>
-#include <functional>
 #include <memory>
 #include <thread>
 
 #include "bubblesim/messages/wire.hpp"
-#include "bubblesim/node_bridge.hpp"
 #include "request_queue.hpp"
+#include "step_answers.hpp"
 
 namespace bubblesim {
 
-/// The answers of the node's service to step, bubblesim_msgs/Step. They wait for the steps, so threads of their own
-/// make them: one may wait, because only one request at a time is not refused at once, the other answers meanwhile.
+/// The answers of the node's services that step. They wait for the steps, so threads of their own make them: one may
+/// wait, because only one request at a time is not refused at once, the other answers meanwhile.
 class StepService {
  public:
-  using Action = std::function<StepAnswer(std::uint32_t steps)>;
-
   /// `layout`: of the answers.
-  StepService(Action action, messages::Layout layout);
+  StepService(StepAction action, messages::Layout layout);
   ~StepService() { stop(); }
   StepService(const StepService&) = delete;
   StepService& operator=(const StepService&) = delete;
 
   /// Throws messages::ServiceError for a request that is too short.
-  messages::WireBuffer answer(messages::WireView request) const;
+  messages::WireBuffer answer(const SteppingService& service, messages::WireView request) const {
+    return service.answer(action_, request, layout_);
+  }
   /// The requests that wait for a thread.
   const std::shared_ptr<RequestQueue>& queue() const { return queue_; }
   /// Ends the threads, after their current answers.
   void stop();
 
  private:
-  const Action action_;
+  const StepAction action_;
   const messages::Layout layout_;
   const std::shared_ptr<RequestQueue> queue_ = std::make_shared<RequestQueue>(nullptr);
   std::atomic<bool> ending_{false};

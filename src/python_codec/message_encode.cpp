@@ -145,7 +145,11 @@ class Encoder {
     PyObject* owner = nullptr;
     if (!read_string(value, bytes, owner, failure)) return false;
     const bool fits = bytes.size() < std::numeric_limits<std::uint32_t>::max();
-    if (fits) out_.put_string(bytes);
+    if (fits) {
+      put(static_cast<std::uint32_t>(bytes.size() + (kIsCdr ? 1 : 0)));
+      out_.put_bytes(bytes.data(), bytes.size());
+      if (kIsCdr) put('\0');
+    }
     Py_XDECREF(owner);
     return fits || failure.set("a string of " + std::to_string(bytes.size()) + " bytes does not fit into a message");
   }

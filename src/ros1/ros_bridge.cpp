@@ -34,6 +34,7 @@
 #include "ros_clock.hpp"
 #include "services/services.hpp"
 #include "status/diagnostics.hpp"
+#include "status/graph_reader.hpp"
 #include "step_service.hpp"
 #include "topics/endpoints.hpp"
 #include "topics/topics.hpp"
@@ -52,6 +53,7 @@ constexpr std::chrono::milliseconds kAnswerTimeout{800};
 constexpr std::chrono::milliseconds kStartTimeout{5000};  // some ten calls to a master on a busy machine
 constexpr std::chrono::milliseconds kLastCalls{100};      // for calls that timed out, or that wait for a lost master
 constexpr std::chrono::milliseconds kLastWords{200};
+constexpr std::chrono::milliseconds kGraphTimeout{2000};
 
 }  // namespace
 
@@ -59,7 +61,7 @@ struct RosBridge::Impl {
   explicit Impl(RosBridgeOptions bridge_options);
 
   void offer_pause_service(const std::string& name, bool paused);
-  void offer_step_service();
+  void offer_step_services();
   std::string refusal();
   void on_connected();
 
@@ -89,6 +91,7 @@ struct RosBridge::Impl {
   Services services{master, watch, guard, arrivals, options.is_ending};
   std::vector<std::shared_ptr<ServiceServer>> own_servers;
   Parameters parameters{master};
+  const std::shared_ptr<GraphReader> graph_reader = std::make_shared<GraphReader>();  // of the master thread
 
   mutable std::mutex urgent_mutex;  // guards urgent
   std::vector<WaitingCount> urgent;
@@ -122,7 +125,7 @@ RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
     offer_pause_service("~pause", true);
     offer_pause_service("~unpause", false);
   }
-  if (options.on_step) offer_step_service();
+  if (options.on_step) offer_step_services();
   first_of_scenes = next_id;
   master.start();
 }
@@ -146,14 +149,17 @@ void RosBridge::Impl::offer_pause_service(const std::string& name, bool paused) 
   }));
 }
 
-void RosBridge::Impl::offer_step_service() {
-  const ServiceType* type = messages::find_service("bubblesim_msgs/Step");
-  if (type == nullptr) return;  // it was taken off meta/services.txt
+void RosBridge::Impl::offer_step_services() {
   step_service = std::make_unique<StepService>(options.on_step, messages::Layout::kPacked);
   step_requests = std::make_unique<RequestCallbacks>(step_service->queue());
-  own_servers.push_back(services.add_server_of(
-      *step_requests, next_id++, "~step", *type,
-      [service = step_service.get()](messages::WireView request) { return service->answer(request); }));
+  for (const SteppingService& service : kSteppingServices) {
+    const ServiceType* type = messages::find_service(service.type);
+    if (type == nullptr) continue;  // it was taken off meta/services.txt
+    own_servers.push_back(services.add_server_of(*step_requests, next_id++, service.name, *type,
+                                                 [&service, steps = step_service.get()](messages::WireView request) {
+                                                   return steps->answer(service, request);
+                                                 }));
+  }
 }
 
 RosBridge::RosBridge(int& argc, char** argv, RosBridgeOptions options) {
@@ -189,7 +195,7 @@ EndpointId RosBridge::subscribe(const std::string& topic, const MessageType& typ
                                 messages::MessageCallback callback) {
   const std::string resolved = resolve_name(topic, "topic");
   impl_->clock.check_type(resolved, type);
-  impl_->topics.subscribe(impl_->next_id, resolved, type, qos.depth, std::move(callback), qos.tcp_no_delay);
+  impl_->topics.subscribe(impl_->next_id, resolved, type, qos, std::move(callback));
   return impl_->next_id++;
 }
 
@@ -302,6 +308,13 @@ bool RosBridge::connected() const {
 }
 
 std::string RosBridge::master_uri() const { return ros::master::getURI(); }
+
+NodeGraph RosBridge::graph() {
+  const auto found = std::make_shared<NodeGraph>();  // the job may run later
+  const bool answered =
+      impl_->master.run([reader = impl_->graph_reader, found] { *found = reader->read(); }, kGraphTimeout);
+  return answered ? *found : NodeGraph();
+}
 
 std::string RosBridge::node_name() const { return ros::this_node::getName(); }
 

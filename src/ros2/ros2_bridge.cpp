@@ -13,6 +13,7 @@
 #include "bubblesim/messages/registry.hpp"
 #include "dds/environment.hpp"
 #include "dds/participant.hpp"
+#include "graph/graph_reader.hpp"
 #include "graph/names.hpp"
 #include "graph/node_announcement.hpp"
 #include "graph/rosout.hpp"
@@ -60,7 +61,7 @@ struct Ros2Bridge::Impl {
   Impl(int& argc, char** argv, NodeBridgeOptions bridge_options);
 
   void offer_pause_service(const char* name, bool paused);
-  void offer_step_service();
+  void offer_step_services();
   void offer_parameters();
   BridgeTime now() const;
 
@@ -100,7 +101,7 @@ Ros2Bridge::Impl::Impl(int& argc, char** argv, NodeBridgeOptions bridge_options)
     offer_pause_service("~/pause", true);
     offer_pause_service("~/unpause", false);
   }
-  if (options.on_step) offer_step_service();
+  if (options.on_step) offer_step_services();
   offer_parameters();
   first_of_scenes = next_id;
   announcement.update();
@@ -141,14 +142,16 @@ BridgeTime Ros2Bridge::Impl::now() const {
   return to_bridge_time(std::chrono::duration_cast<std::chrono::nanoseconds>(wall).count());
 }
 
-void Ros2Bridge::Impl::offer_step_service() {
-  const ServiceType* type = messages::find_service("bubblesim_msgs/Step", messages::RosVersion::kRos2);
-  if (type == nullptr) return;  // it was taken off meta/services.txt
+void Ros2Bridge::Impl::offer_step_services() {
   step_service = std::make_unique<StepService>(options.on_step, messages::Layout::kCdr);
-  services.add_server(
-      next_id++, names.resolve("~/step", "service"), *type,
-      [service = step_service.get()](messages::WireView request) { return service->answer(request); },
-      step_service->queue().get());
+  for (const SteppingService& service : kSteppingServices) {
+    const ServiceType* type = messages::find_service(service.type, messages::RosVersion::kRos2);
+    if (type == nullptr) continue;  // it was taken off meta/services.txt
+    services.add_server(
+        next_id++, names.resolve(service.name, "service"), *type,
+        [&service, steps = step_service.get()](messages::WireView request) { return steps->answer(service, request); },
+        step_service->queue().get());
+  }
 }
 
 Ros2Bridge::Ros2Bridge(int& argc, char** argv, NodeBridgeOptions options)
@@ -303,6 +306,8 @@ void Ros2Bridge::shutdown_endpoints() {
   impl_->topics.shutdown_from(impl_->first_of_scenes);
   impl_->services.remove_from(impl_->first_of_scenes);
 }
+
+NodeGraph Ros2Bridge::graph() { return ros2::read_graph(impl_->participant); }
 
 std::string Ros2Bridge::node_name() const { return impl_->names.full_node(); }
 

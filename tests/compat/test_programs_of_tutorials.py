@@ -16,6 +16,7 @@ PACKAGES = {
     "joy": "joy_node",
     "map_server": "map_server",
     "mouse_teleop": "mouse_teleop.py",
+    "move_base": "move_base",
     "pointcloud_to_laserscan": "pointcloud_to_laserscan_node",
     "robot_localization": "ekf_localization_node",
     "teleop_twist_joy": "teleop_node",

@@ -102,12 +102,12 @@ CLIENT = """
             send()
 
     def on_feedback(goal_id, feedback):
-        print('feedback', list(feedback['sequence']), flush=True)
+        print('feedback', feedback['sequence'].tolist(), flush=True)
         if len(feedback['sequence']) > 5 and not self.cancelled:
             self.cancelled = simROS2.cancelLastGoal(self.client)
 
     def on_result(goal_id, code, result):
-        print('result', code, list(result['sequence'])[:5], flush=True)
+        print('result', code, result['sequence'].tolist()[:5], flush=True)
         if self.orders:
             send()
 """

@@ -78,6 +78,15 @@ def test_stamps_follow_use_sim_time(ros2_domain: Domain, ros2_peer: Ros2Peer, tm
     assert (seconds < 1_000_000) is simulated
 
 
+def test_arguments_in_the_spelling_of_ros2(ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path: Path) -> None:
+    file = write(tmp_path / "script.py", STAMPS)
+    rules = ["-r", "__ns:=/robots", "--remap", "sim:__node:=sim", "-r", "/stamp:=/other", "-p", "use_sim_time:=true"]
+    options = ["--ros=2", "--ros-args", *rules, "--log-level", "info", "--", "--child-script", f"/Ball={file}"]
+    with Node(ros2_domain.env(), tmp_path / "log", "ball", *options):
+        assert ros2_peer.next("/other", "std_msgs/msg/Header")["stamp"]["sec"] < 1_000_000
+        assert "/robots/sim" in ros2_peer.graph()["nodes"]
+
+
 def test_two_simulators_of_a_domain_see_each_other(ros2_domain: Domain, tmp_path: Path) -> None:
     code = """
         def sysCall_init():
@@ -133,6 +142,9 @@ def test_ctrl_c_ends_the_node(ros2_domain: Domain, tmp_path: Path) -> None:
         (["--record=a.mcap"], {}, "--record: .mcap is of ROS 2: --ros=2"),
         (["--ros=2", "--replace"], {}, "--replace: needs ROS 1"),
         (["--ros=2", "__name:=a/b"], {}, "invalid name for the ROS node: 'a/b' has a '/'"),
+        (["--ros=2", "--ros-args", "-x", "1"], {}, "--ros-args: '-x' is not supported; -r, -p and those for logs are"),
+        (["--ros=2", "--ros-args", "-r", "a"], {}, "-r needs NAME:=VALUE, found 'a'"),
+        (["--ros=2", "--ros-args", "-p"], {}, "--ros-args: -p needs a value"),
         (["--ros=2"], {"ROS_DOMAIN_ID": "300"}, "ROS_DOMAIN_ID must be 0 to 232, found '300'"),
     ],
 )

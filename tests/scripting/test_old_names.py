@@ -88,7 +88,7 @@ def test_a_threaded_script_of_v_rep_runs_as_a_thread(tmp_path: Path) -> None:
 
 
 def test_sys_call_threadmain_is_the_thread(tmp_path: Path) -> None:
-    code = "function sysCall_threadmain() sim.wait(0.1) print(sim.getSimulationTime()) end"
+    code = "function sysCall_threadmain() sim.setStepping(true) sim.wait(0.1) print(sim.getSimulationTime()) end"
     run = run_script(tmp_path, code, "--strict", name="script.lua", until=0.3)
     assert (run.stdout, run.stderr) == ("0.1\n", "")
 

@@ -210,7 +210,6 @@ BAD_CALLS = {
     "sim.setJointTargetVelocity(sim.handle_self, 1)": "/Ball is a model, not a joint",
     "sim.setJointTargetVelocity(sim.handle_self, 'x')": "argument 2, velocity: expected a number, found str 'x'",
     "sim.readProximitySensor(sim.handle_self)": "/Ball is a model, not a proximity sensor",
-    "sim.launchExecutable('no_such_program')": "FileNotFoundError: program 'no_such_program' not found in ",
     "sim.launchExecutable('echo', '\"open')": "ValueError: No closing quotation",
 }
 
@@ -280,3 +279,10 @@ print('done')
     run = run_script(tmp_path, code, "--strict")
     assert run.stdout.endswith("done\n")
     assert run.returncode == 0
+
+
+def test_a_program_that_is_not_there_is_a_warning_and_minus_one(tmp_path: Path) -> None:
+    run = run_script(tmp_path, "def sysCall_init():\n    print(sim.launchExecutable('no_such_program'))\n", "--strict")
+    assert run.stdout == "-1\n"
+    assert run.returncode == 0
+    assert "warning: /Ball: sim.launchExecutable: program 'no_such_program' not found in " in run.stderr

@@ -7,7 +7,7 @@ import re
 import signal
 import subprocess
 import textwrap
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -131,12 +131,12 @@ class Background:
 class Node(Background):
     """The node in the background; it ends with the block, and `output` holds what it wrote."""
 
-    def __init__(self, env: dict[str, str], log: Path, *arguments: object) -> None:
+    def __init__(self, env: dict[str, str], log: Path, *arguments: object, within: Sequence[str] = ()) -> None:
+        """``within``: a program that runs the command which follows its arguments."""
         self._log = log
+        command = [*within, str(built("sim")), *map(str, arguments)]
         with log.open("w") as output:
-            self.process = start(
-                [str(built("sim")), *map(str, arguments)], env, stdout=output, stderr=subprocess.STDOUT
-            )
+            self.process = start(command, env, stdout=output, stderr=subprocess.STDOUT)
 
     @property
     def output(self) -> str:

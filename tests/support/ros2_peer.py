@@ -10,7 +10,7 @@ import fcntl
 import itertools
 import os
 import signal
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -71,9 +71,11 @@ def peer_environment(domain: Domain, **changes: str) -> dict[str, str]:
 class Ros2Peer(PeerProcess):
     """A node `/peer` that publishes and receives messages as dicts; bytes stay bytes."""
 
-    def __init__(self, domain: Domain, log: Path, **env: str) -> None:
+    def __init__(self, domain: Domain, log: Path, within: Sequence[str] = (), **env: str) -> None:
+        """``within``: a program that runs the command which follows its arguments."""
         program = str(Path(__file__).with_name("ros2_peer_node.py"))
-        super().__init__([str(PEERS / "bin" / "python"), "-u", program], peer_environment(domain, **env), log)
+        command = [*within, str(PEERS / "bin" / "python"), "-u", program]
+        super().__init__(command, peer_environment(domain, **env), log)
         self._subscribed: set[str] = set()
         self._wait_for("ready", 1)
 

@@ -80,10 +80,16 @@ struct ServiceType {
 };
 
 /// Bytes of one value of a kind; 0 when the size depends on the value (strings, messages).
-std::uint32_t wire_size(FieldKind kind);
+constexpr std::uint32_t wire_size(FieldKind kind) {
+  constexpr std::uint8_t kSizes[] = {1, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8, 0, 8, 8, 0};  // in the order of FieldKind
+  return kSizes[static_cast<std::size_t>(kind)];
+}
 
 /// The multiple at which a value of a kind begins in CDR; 1 for messages, whose first value has its own.
-std::uint32_t alignment(FieldKind kind);
+constexpr std::uint32_t alignment(FieldKind kind) {
+  if (kind <= FieldKind::kFloat64) return wire_size(kind);
+  return kind == FieldKind::kMessage ? 1 : sizeof(std::uint32_t);  // lengths, seconds
+}
 
 /// Least bytes of a message, a field or one element of an array field, without those for alignment. In the layout of
 /// ROS 1 these are the bytes of the default value.

@@ -23,6 +23,8 @@ struct Qos {
   std::optional<double> lifespan = std::nullopt;
   /// Of ROS 2 alone, s: the longest time between two messages that a publisher offers or a subscriber asks for.
   std::optional<double> deadline = std::nullopt;
+  /// Of a subscriber: messages that this node itself publishes are not delivered.
+  bool ignore_own = false;
 };
 
 }  // namespace bubblesim::messages

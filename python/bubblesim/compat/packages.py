@@ -23,6 +23,7 @@ PACKAGES = {
     "map_server": "map_server",
     "mav_msgs": "messages",
     "mouse_teleop": "mouse_teleop.py",
+    "move_base": "move_base, over go_to.py",
     "pointcloud_to_laserscan": "pointcloud_to_laserscan_node",
     "robot_localization": "ekf_localization_node, which integrates the odometry and is no Kalman filter",
     "teleop_twist_joy": "teleop_node",

@@ -57,6 +57,11 @@ class ObservedBridge:
         self._published: dict[int, tuple[str, str]] = {}  # topic and type by publisher
         self._latched: set[int] = set()
 
+    @property
+    def unobserved(self) -> Any:
+        """Return the bridge itself, for topics that are in no recording."""
+        return self._bridge
+
     def __getattr__(self, name: str) -> Any:
         """Forward all functions that are not observed."""
         return getattr(self._bridge, name)

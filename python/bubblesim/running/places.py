@@ -19,6 +19,15 @@ def node_program() -> Path:
     return program
 
 
+def bridge_program() -> Path:
+    """Return the program that passes topics between ROS 1 and ROS 2, <prefix>/lib/bubblesim/ros_bridge."""
+    core = importlib.util.find_spec("bubblesim._core")
+    program = Path((core and core.origin) or "").parents[3] / "bubblesim" / "ros_bridge"
+    if not program.is_file():
+        raise RunError("this build has no ROS 2; build it with: scripts/setup --with ros2")
+    return program
+
+
 def scene_converter() -> Path:
     """Return the program that reads files of CoppeliaSim, <prefix>/lib/bubblesim/scene_converter."""
     core = importlib.util.find_spec("bubblesim._core")

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from bubblesim._core.messages import RosVersion
+from bubblesim.both_bridges import bridge_of
 from bubblesim.scripting.host.host import ScriptHost
 from bubblesim.services.drawing_markers import DrawingMarkers
 from bubblesim.services.gazebo_properties import GazeboProperties
@@ -11,7 +13,9 @@ from bubblesim.services.gazebo_topics import GazeboTopics
 from bubblesim.services.model_services import ModelServices
 from bubblesim.services.object_services import ObjectServices
 from bubblesim.services.reset_services import advertise_reset_services
+from bubblesim.services.simulate_steps import SimulateSteps
 from bubblesim.services.simulation_topics import SimulationTopics
+from bubblesim.services.standard_services import StandardServices
 from bubblesim.services.state_services import advertise_state_services
 
 
@@ -26,6 +30,10 @@ class NodeServices:
         is_gazebo = gazebo_compat and node_name == "/gazebo"
         advertise_reset_services(host.bridge, host, taken=["~reset_simulation"] if is_gazebo else [])
         advertise_state_services(host.bridge, host)
+        ros2 = bridge_of(host.bridge, RosVersion.ROS2)
+        has_action = ros2.version == RosVersion.ROS2
+        self._steps = SimulateSteps(getattr(ros2, "unobserved", ros2), host.runner) if has_action else None
+        StandardServices(host, has_action=has_action)
         self._topics = SimulationTopics(host.bridge, host.runner)
         self._drawings = DrawingMarkers(host.bridge, host.simulation, host.shared)
         self._gazebo: GazeboTopics | None = None
@@ -36,11 +44,15 @@ class NodeServices:
 
     def process_input(self) -> None:
         """Publish the state after input was processed."""
+        if self._steps is not None:
+            self._steps.process_input()
         self._topics.publish_state()
 
     def publish(self) -> None:
         """Publish at the end of a step, after all other messages of the step."""
         if self._gazebo is not None:
             self._gazebo.publish()
+        if self._steps is not None:
+            self._steps.publish()
         self._drawings.publish()
         self._topics.publish_step_done()

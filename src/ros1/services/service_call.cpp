@@ -52,9 +52,11 @@ std::vector<std::string> known_services() {
   return names;
 }
 
-void write_header(TimedSocket& socket, const std::string& service) {
+/// `probe`: the server is asked for its header alone.
+void write_header(TimedSocket& socket, const std::string& service, bool probe = false) {
   // Request any md5: a server that rejects an md5 only reports it as free text.
-  const ros::M_string fields{{"service", service}, {"md5sum", "*"}, {"callerid", ros::this_node::getName()}};
+  ros::M_string fields{{"service", service}, {"md5sum", "*"}, {"callerid", ros::this_node::getName()}};
+  if (probe) fields["probe"] = "1";
   boost::shared_array<std::uint8_t> bytes;
   std::uint32_t size = 0;
   ros::Header::write(fields, bytes, size);
@@ -143,6 +145,20 @@ bool find_service(const std::string& name, const Deadline& deadline) {
     return true;
   } catch (const std::runtime_error&) {  // no master, or a server that died without unregistering
     return false;
+  }
+}
+
+std::string type_of_service(const std::string& name, const Deadline& deadline) {
+  try {
+    const std::optional<Address> address = look_up(name);
+    if (!address) return {};
+    TimedSocket socket(address->host, address->port, deadline);
+    write_header(socket, name, true);
+    std::string type;
+    read_header(socket).getValue("type", type);
+    return type;
+  } catch (const std::runtime_error&) {  // no master, or a server that does not answer
+    return {};
   }
 }
 

@@ -19,6 +19,9 @@ messages::WireBuffer call_service(const std::string& name, const messages::Servi
 /// Returns whether a server of the service accepts connections; false without a master.
 bool find_service(const std::string& name, const Deadline& deadline);
 
+/// Returns the type that the server of a service reports, `pkg/Type`; empty without an answer.
+std::string type_of_service(const std::string& name, const Deadline& deadline);
+
 /// The error that a service is of type `name` with that md5, not `wanted`.
 messages::ServiceError other_type(const std::string& service, const std::string& name, const std::string& md5,
                                   const messages::ServiceType& wanted);

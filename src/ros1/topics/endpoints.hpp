@@ -62,9 +62,8 @@ class PublisherEndpoint {
 class SubscriberEndpoint {
  public:
   /// Callbacks run through `guard` when `queue` is called.
-  SubscriberEndpoint(std::string topic, const messages::MessageType& type, std::uint32_t queue_size,
-                     messages::MessageCallback callback, bool tcp_no_delay, ros::CallbackQueueInterface& queue,
-                     CallbackGuard& guard);
+  SubscriberEndpoint(std::string topic, const messages::MessageType& type, const messages::Qos& qos,
+                     messages::MessageCallback callback, ros::CallbackQueueInterface& queue, CallbackGuard& guard);
 
   const std::string& topic() const { return topic_; }
   const messages::MessageType& type() const { return type_; }
@@ -88,8 +87,7 @@ class SubscriberEndpoint {
 
   const std::string topic_;
   const messages::MessageType& type_;
-  const std::uint32_t queue_size_;
-  const bool tcp_no_delay_;
+  const messages::Qos qos_;
   const boost::shared_ptr<Receiver> receiver_;
   std::atomic<bool> has_publisher_{false};
 };

@@ -33,11 +33,10 @@ void Topics::advertise(EndpointId id, const std::string& topic, const MessageTyp
   put_on(publisher);
 }
 
-void Topics::subscribe(EndpointId id, const std::string& topic, const MessageType& type, std::uint32_t queue_size,
-                       messages::MessageCallback callback, bool tcp_no_delay) {
+void Topics::subscribe(EndpointId id, const std::string& topic, const MessageType& type, const messages::Qos& qos,
+                       messages::MessageCallback callback) {
   endpoints_.check_type_on(topic, type);
-  const auto subscriber =
-      std::make_shared<SubscriberEndpoint>(topic, type, queue_size, std::move(callback), tcp_no_delay, queue_, guard_);
+  const auto subscriber = std::make_shared<SubscriberEndpoint>(topic, type, qos, std::move(callback), queue_, guard_);
   endpoints_.subscribers.emplace(id, subscriber);
   settle(topic);
   put_on(subscriber);

@@ -29,7 +29,7 @@ class Topics {
   void advertise(messages::EndpointId id, const std::string& topic, const messages::MessageType& type,
                  std::uint32_t queue_size, bool latch);
   void subscribe(messages::EndpointId id, const std::string& topic, const messages::MessageType& type,
-                 std::uint32_t queue_size, messages::MessageCallback callback, bool tcp_no_delay);
+                 const messages::Qos& qos, messages::MessageCallback callback);
   void yield_topic(messages::EndpointId id);
   bool wants_messages(messages::EndpointId publisher) const;
   bool has_publisher(messages::EndpointId subscriber) const;

@@ -138,6 +138,8 @@ struct DiscoveredEndpoint {
   Guid guid;
   std::string topic;
   std::string type;
+  bool reliable = true;
+  bool transient_local = false;
   bool removed = false;
 };
 
@@ -150,26 +152,41 @@ class DiscoveryListener final : public dds::DomainParticipantListener {
 #if defined(FASTDDS_VERSION_MAJOR) && FASTDDS_VERSION_MAJOR >= 3
   void on_data_reader_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryStatus status,
                                 const dds::SubscriptionBuiltinTopicData& data, bool&) override {
-    if (on_reader)
-      on_reader({data.guid, data.topic_name.to_string(), data.type_name.to_string(),
-                 status == rtps::ReaderDiscoveryStatus::REMOVED_READER});
+    if (on_reader) on_reader(endpoint(data, data.guid, status == rtps::ReaderDiscoveryStatus::REMOVED_READER));
   }
   void on_data_writer_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryStatus status,
                                 const dds::PublicationBuiltinTopicData& data, bool&) override {
-    if (on_writer)
-      on_writer({data.guid, data.topic_name.to_string(), data.type_name.to_string(),
-                 status == rtps::WriterDiscoveryStatus::REMOVED_WRITER});
+    if (on_writer) on_writer(endpoint(data, data.guid, status == rtps::WriterDiscoveryStatus::REMOVED_WRITER));
   }
 #else
   void on_subscriber_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& found) override {
-    if (on_reader)
-      on_reader({found.info.guid(), found.info.topicName().to_string(), found.info.typeName().to_string(),
-                 found.status == rtps::ReaderDiscoveryInfo::REMOVED_READER});
+    if (on_reader) on_reader(endpoint(found.info, found.status == rtps::ReaderDiscoveryInfo::REMOVED_READER));
   }
   void on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& found) override {
-    if (on_writer)
-      on_writer({found.info.guid(), found.info.topicName().to_string(), found.info.typeName().to_string(),
-                 found.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER});
+    if (on_writer) on_writer(endpoint(found.info, found.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER));
+  }
+#endif
+
+ private:
+#if defined(FASTDDS_VERSION_MAJOR) && FASTDDS_VERSION_MAJOR >= 3
+  template <class Data>
+  static DiscoveredEndpoint endpoint(const Data& data, const Guid& guid, bool removed) {
+    return {guid,
+            data.topic_name.to_string(),
+            data.type_name.to_string(),
+            data.reliability.kind == dds::RELIABLE_RELIABILITY_QOS,
+            data.durability.kind != dds::VOLATILE_DURABILITY_QOS,
+            removed};
+  }
+#else
+  template <class Data>
+  static DiscoveredEndpoint endpoint(Data& data, bool removed) {
+    return {data.guid(),
+            data.topicName().to_string(),
+            data.typeName().to_string(),
+            data.m_qos.m_reliability.kind == dds::RELIABLE_RELIABILITY_QOS,
+            data.m_qos.m_durability.kind != dds::VOLATILE_DURABILITY_QOS,
+            removed};
   }
 #endif
 };

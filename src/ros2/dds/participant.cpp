@@ -113,7 +113,8 @@ class Participant::Topic {
 
 Participant::Participant(const Environment& environment) {
   log_to_stderr();
-  listener_.on_reader = [this](const DiscoveredEndpoint& reader) { note(reader); };
+  listener_.on_reader = [this](const DiscoveredEndpoint& reader) { note(remote_readers_, reader); };
+  listener_.on_writer = [this](const DiscoveredEndpoint& writer) { note(remote_writers_, writer); };
   const SignalsBlocked blocked;
   participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(
       static_cast<dds::DomainId_t>(environment.domain), participant_qos(environment), &listener_,
@@ -146,19 +147,32 @@ std::set<std::string> Participant::types_of_readers(const std::string& topic) co
   std::set<std::string> types;
   const auto found = remote_readers_.find(topic);
   if (found == remote_readers_.end()) return types;
-  for (const auto& [guid, type] : found->second) types.insert(type);
+  for (const auto& [guid, reader] : found->second) types.insert(reader.type);
   return types;
 }
 
-void Participant::note(const DiscoveredEndpoint& reader) {
+std::vector<DiscoveredEndpoint> Participant::remote_readers() const { return all_of(remote_readers_); }
+
+std::vector<DiscoveredEndpoint> Participant::remote_writers() const { return all_of(remote_writers_); }
+
+std::vector<DiscoveredEndpoint> Participant::all_of(const Endpoints& endpoints) const {
   const std::lock_guard lock(mutex_);
-  auto& readers = remote_readers_[reader.topic];
-  if (reader.removed) {
-    readers.erase(reader.guid);
-  } else {
-    readers[reader.guid] = reader.type;
+  std::vector<DiscoveredEndpoint> all;
+  for (const auto& [topic, of_topic] : endpoints) {
+    for (const auto& [guid, endpoint] : of_topic) all.push_back(endpoint);
   }
-  if (readers.empty()) remote_readers_.erase(reader.topic);
+  return all;
+}
+
+void Participant::note(Endpoints& endpoints, const DiscoveredEndpoint& found) {
+  const std::lock_guard lock(mutex_);
+  auto& of_topic = endpoints[found.topic];
+  if (found.removed) {
+    of_topic.erase(found.guid);
+  } else {
+    of_topic[found.guid] = found;
+  }
+  if (of_topic.empty()) endpoints.erase(found.topic);
 }
 
 std::shared_ptr<Participant::Topic> Participant::topic(const TopicName& name) {

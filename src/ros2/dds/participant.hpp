@@ -6,6 +6,7 @@
 #include <mutex>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "bubblesim/messages/qos.hpp"
 #include "dds/environment.hpp"
@@ -45,14 +46,20 @@ class Participant {
   NodeEndpoints endpoints() const;
   /// The types of the remote readers of a topic, sorted.
   std::set<std::string> types_of_readers(const std::string& topic) const;
+  /// The readers and writers of other participants.
+  std::vector<DiscoveredEndpoint> remote_readers() const;
+  std::vector<DiscoveredEndpoint> remote_writers() const;
 
  private:
   friend class Writer;
   friend class Reader;
   class Topic;
 
+  using Endpoints = std::map<std::string, std::map<Guid, DiscoveredEndpoint>>;  // by topic
+
   std::shared_ptr<Topic> topic(const TopicName& name);
-  void note(const DiscoveredEndpoint& reader);
+  void note(Endpoints& endpoints, const DiscoveredEndpoint& found);
+  std::vector<DiscoveredEndpoint> all_of(const Endpoints& endpoints) const;
 
   DiscoveryListener listener_;
   dds::DomainParticipant* participant_ = nullptr;
@@ -62,7 +69,8 @@ class Participant {
   std::map<std::string, std::weak_ptr<Topic>> topics_;
   std::map<std::string, dds::TypeSupport> types_;
   NodeEndpoints endpoints_;
-  std::map<std::string, std::map<Guid, std::string>> remote_readers_;  // types by topic
+  Endpoints remote_readers_;
+  Endpoints remote_writers_;
 };
 
 /// A DataWriter of the participant, which must outlive it. The listener too.

@@ -53,6 +53,16 @@ std::string dds_type(const std::string& type, const std::string& folder, const s
   return type.substr(0, first) + "::" + place + "::dds_::" + type.substr(last + 1) + ending + "_";
 }
 
+/// The inverse of dds_type(); a type without `middle` and `ending` stays.
+std::string ros_type(const std::string& type, std::string_view middle, std::string_view ending) {
+  const std::size_t place = type.find(middle);
+  const bool ends =
+      type.size() > ending.size() && type.compare(type.size() - ending.size(), ending.size(), ending) == 0;
+  if (place == std::string::npos || !ends) return type;
+  const std::size_t begin = place + middle.size();
+  return type.substr(0, place) + "/" + type.substr(begin, type.size() - ending.size() - begin);
+}
+
 }  // namespace
 
 Names::Names(int& argc, char** argv, const std::string& default_name) : node_(default_name) {
@@ -123,15 +133,8 @@ TopicName reply_topic(const std::string& service, const messages::ServiceType& t
   return {"rr" + service + "Reply", dds_type(type.name, "srv", "_Response"), type.type_hash};
 }
 
-std::string service_of(const std::string& request_type) {
-  constexpr std::string_view kMiddle = "::srv::dds_::";
-  constexpr std::string_view kEnd = "_Request_";
-  const std::size_t middle = request_type.find(kMiddle);
-  const bool ends = request_type.size() > kEnd.size() &&
-                    request_type.compare(request_type.size() - kEnd.size(), kEnd.size(), kEnd) == 0;
-  if (middle == std::string::npos || !ends) return request_type;
-  const std::size_t begin = middle + kMiddle.size();
-  return request_type.substr(0, middle) + "/" + request_type.substr(begin, request_type.size() - kEnd.size() - begin);
-}
+std::string message_of(const std::string& type) { return ros_type(type, "::msg::dds_::", "_"); }
+
+std::string service_of(const std::string& request_type) { return ros_type(request_type, "::srv::dds_::", "_Request_"); }
 
 }  // namespace bubblesim::ros2

@@ -51,6 +51,8 @@ TopicName message_topic(const std::string& topic, const messages::MessageType& t
 TopicName request_topic(const std::string& service, const messages::ServiceType& type);
 TopicName reply_topic(const std::string& service, const messages::ServiceType& type);
 
+/// `std_msgs::msg::dds_::Float32_` -> `std_msgs/Float32`; others stay.
+std::string message_of(const std::string& type);
 /// `std_srvs::srv::dds_::Empty_Request_` -> `std_srvs/Empty`; others stay.
 std::string service_of(const std::string& request_type);
 

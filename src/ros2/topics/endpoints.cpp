@@ -40,14 +40,16 @@ void PublisherEndpoint::close() {
 
 class SubscriberEndpoint::Listener final : public dds::DataReaderListener {
  public:
-  Listener(Inbox& inbox, std::shared_ptr<Mailbox> mailbox, std::atomic<int>& publishers)
-      : inbox_(inbox), mailbox_(std::move(mailbox)), publishers_(publishers) {}
+  Listener(Inbox& inbox, std::shared_ptr<Mailbox> mailbox, std::atomic<int>& publishers, bool ignore_own)
+      : inbox_(inbox), mailbox_(std::move(mailbox)), publishers_(publishers), ignore_own_(ignore_own) {}
 
   void on_data_available(dds::DataReader* reader) override {
     std::vector<std::uint8_t> message;
     dds::SampleInfo info;
     while (take(*reader, message, info)) {
-      if (info.valid_data) inbox_.add(mailbox_, std::exchange(message, {}));
+      const bool is_own = info.sample_identity.writer_guid().guidPrefix == reader->guid().guidPrefix;
+      if (!info.valid_data || (ignore_own_ && is_own)) continue;
+      inbox_.add(mailbox_, std::exchange(message, {}));
     }
   }
   void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
@@ -58,6 +60,7 @@ class SubscriberEndpoint::Listener final : public dds::DataReaderListener {
   Inbox& inbox_;
   const std::shared_ptr<Mailbox> mailbox_;
   std::atomic<int>& publishers_;
+  const bool ignore_own_;
 };
 
 SubscriberEndpoint::SubscriberEndpoint(std::string topic, const messages::MessageType& type, const messages::Qos& qos,
@@ -65,7 +68,7 @@ SubscriberEndpoint::SubscriberEndpoint(std::string topic, const messages::Messag
     : topic_(std::move(topic)), type_(type), qos_(qos), inbox_(inbox) {
   mailbox_->depth = qos.depth;
   mailbox_->callback = std::make_shared<messages::MessageCallback>(std::move(callback));
-  listener_ = std::make_unique<Listener>(inbox_, mailbox_, publishers_);
+  listener_ = std::make_unique<Listener>(inbox_, mailbox_, publishers_, qos.ignore_own);
 }
 
 SubscriberEndpoint::~SubscriberEndpoint() = default;

@@ -27,6 +27,7 @@ from bubblesim.scripting.threads.lua_thread import LuaThread
 _SANDBOX = Path(__file__).with_name("sandbox.lua")
 _SHOWN_VALUES = Path(__file__).with_name("shown_values.lua")
 _LIBRARIES = Path(__file__).with_name("libraries.lua")
+_WAITING = Path(__file__).with_name("waiting.lua")
 _ADDED = {"matrix": Path(__file__).with_name("matrix.lua"), "utils": Path(__file__).with_name("utils.lua")}
 _VARIABLES = ("HOME", "LANG", "LANGUAGE", "PWD", "ROS_DISTRO", "TMPDIR", "TZ", "USER")
 _MOST_BYTES = 64 << 20  # of a file that a script reads
@@ -168,12 +169,10 @@ class LuaCode:
         host[b"v_rep_name"] = callable_from_lua(self._v_rep_name)
         host[b"read_file"] = callable_from_lua(self._read_file)
         host[b"getenv"] = callable_from_lua(lambda name: os.environ.get(name) if name in _VARIABLES else None)
-        host[b"libraries"] = self._runtime.execute(b"return function(...) " + _LIBRARIES.read_bytes() + b"\nend")
+        host[b"libraries"] = self._function_of(_LIBRARIES)
+        host[b"wait"] = self._function_of(_WAITING)
         host[b"added"] = self._runtime.table_from(
-            {
-                name.encode(): self._runtime.execute(b"return function(...) " + path.read_bytes() + b"\nend")
-                for name, path in _ADDED.items()
-            }
+            {name.encode(): self._function_of(path) for name, path in _ADDED.items()}
         )
         host[b"whole"] = callable_from_lua(lambda text: self._with_whole_paths(_decoded(text)))
         host[b"shown"] = self._runtime.execute(_SHOWN_VALUES.read_bytes(), name=b"=[sandbox]")
@@ -182,6 +181,10 @@ class LuaCode:
         host[b"report_place"] = self._report_place
         host[b"unsafe"] = to_lua(unsafe)
         return self._runtime.execute(_SANDBOX.read_bytes(), host, name=b"=[sandbox]")
+
+    def _function_of(self, file: Path) -> Any:
+        """Return a file of this package as a function of Lua."""
+        return self._runtime.execute(b"return function(...) " + file.read_bytes() + b"\nend", name=b"=[sandbox]")
 
     def _write(self, line: str | bytes) -> None:
         print_line(self._source, _decoded(line))

@@ -11,8 +11,7 @@
 --   host.explain      returns the error message for an unknown name of a module
 --   host.old_name     returns the present name of an old name of a module, or nil
 --   host.v_rep_name   returns module and name of a global of V-REP, or nil
---   host.waiting      names of functions of sim that take several steps: they return a number
---   host.go_on        carries out a step of the function with a number; returns whether it is done, and its results
+--   host.wait         the function of waiting.lua; host.waiting and host.go_on are for it
 --   host.added        by name, functions that make a module from the globals
 --   host.read_file, host.getenv  see libraries.lua
 --   host.libraries    the function of libraries.lua
@@ -31,8 +30,8 @@ local error, getmetatable, load, next, pcall, rawequal, rawget, select, setmetat
   error, getmetatable, load, next, pcall, rawequal, rawget, select, setmetatable, type, xpcall
 local close, create, resume, running, status, wrap, yield = coroutine.close, coroutine.create, coroutine.resume,
   coroutine.running, coroutine.status, coroutine.wrap, coroutine.yield
-local concat, format, match, min = table.concat, string.format, string.match, math.min
-local isyieldable, clock = coroutine.isyieldable, os.clock
+local concat, format, match = table.concat, string.format, string.match
+local clock = os.clock
 local getinfo, sethook, traceback = debug.getinfo, debug.sethook, debug.traceback
 
 local SOURCE = getinfo(1, "S").source
@@ -249,77 +248,10 @@ setmetatable(globals, {
   end,
 })
 
--- The coroutine of sysCall_thread, and one that the script has created, can yield its turn; a coroutine cannot yield
--- inside a Python function, so what waits does so here, step by step.
 local sim = modules.sim
-local step_of_thread, time_of = sim.step, sim.getSimulationTime
-local function yield_turn(name)
-  if running() == thread then return step_of_thread() end
-  if not isyieldable() then
-    fail("sim." .. name .. " is only allowed in sysCall_thread and in coroutines: other callbacks must not wait")
-  end
-  yield()
-end
-local function next_step(name)
-  local now = time_of()
-  yield_turn(name)
-  while running() ~= thread and time_of() == now do yield_turn(name) end  -- resumed twice in a step
-end
-function sim.switchThread() yield_turn("switchThread") end
-function sim.step() next_step("step") end
-
-function sim.wait(seconds, of_simulation)
-  if running() ~= thread and not isyieldable() then yield_turn("wait") end
-  if type(seconds) ~= "number" then fail("sim.wait: argument 1, seconds: expected a number") end
-  local now = of_simulation == false and sim.getSystemTime or time_of
-  local tolerance = of_simulation == false and 0 or 1e-6 * sim.getSimulationTimeStep()
-  local end_of_wait = now() + seconds
-  while now() < end_of_wait - tolerance do next_step("wait") end
-  return min(0.0, end_of_wait - now())
-end
-
-function sim.waitForSignal(name)
-  while true do
-    local value = sim.getInt32Signal(name) or sim.getFloatSignal(name) or sim.getStringSignal(name)
-    if value ~= nil then return value end
-    next_step("waitForSignal")
-  end
-end
-
-local read_tube = sim.tubeRead
-function sim.tubeRead(tube, blocking)
-  local packet = read_tube(tube)
-  while packet == nil and blocking do
-    next_step("tubeRead")
-    packet = read_tube(tube)
-  end
-  return packet
-end
-
--- Functions that take several steps: each resumption of the coroutine carries out one.
-local go_on = checked(host.go_on)
-local function results_when_done(name, number, done, ...)
-  if done then return ... end
-  next_step(name)
-  return results_when_done(name, number, go_on(number))
-end
-for _, name in next, host.waiting do
-  local begin = sim[name]
-  sim[name] = function(...)
-    local number = begin(...)  -- checks the arguments
-    if running() ~= thread and not isyieldable() then yield_turn(name) end
-    return results_when_done(name, number, go_on(number))
-  end
-end
-
-for _, name in next, {"setStepping", "setThreadAutomaticSwitch", "acquireLock", "releaseLock"} do
-  local set, level = sim[name], sim.getStepping
-  sim[name] = function(...)
-    local before = set(...)
-    is_stepping = level() > 0
-    return before
-  end
-end
+host.wait(sim, host.waiting, checked(host.go_on), function() return running() == thread end, function(enabled)
+  is_stepping = enabled
+end, fail)
 
 local inverse = sim.invertMatrix
 function sim.invertMatrix(matrix)  -- the argument changes, as in the original

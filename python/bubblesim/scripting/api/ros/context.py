@@ -49,3 +49,8 @@ class RosContext:
             if (where, field) not in self._warned:
                 self._warned.add((where, field))
                 self._warn(f"{where}: float {value!r} in integer field {field} is truncated to {int(value)}")
+
+
+def with_slashes(type_name: str) -> str:
+    """Return the name of a type as package/Type; older scripts write package::Type."""
+    return type_name.replace("::", "/")

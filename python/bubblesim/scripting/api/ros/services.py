@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from bubblesim import _core
-from bubblesim.scripting.api.ros.context import RosContext
+from bubblesim.scripting.api.ros.context import RosContext, with_slashes
 from bubblesim.scripting.api.ros.kinds import RosHandle, ServiceOrClient
 from bubblesim.scripting.caller import Caller
 
@@ -48,12 +48,14 @@ class RosServices(RosContext):
         return bool(self._bridge.wait_for_service(self._clients[service][0], timeout))
 
     def _client(self, name: str, service_type: str) -> int:
+        service_type = with_slashes(service_type)
         client = int(self._bridge.service_client(name, service_type))
         self._clients[client] = name, _core.messages.service_halves(service_type, self._bridge.version)[0]
         self._caller.at_end["client", client] = lambda: self._bridge.shutdown_service_client(client)
         return client
 
     def _server(self, name: str, service_type: str, callback: ServiceCallback) -> int:
+        service_type = with_slashes(service_type)
         version = self._bridge.version
         _, response_type = _core.messages.service_halves(service_type, version)
 

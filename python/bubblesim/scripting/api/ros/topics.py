@@ -10,7 +10,7 @@ from typing import Any
 from bubblesim import _core
 from bubblesim.program.output import write_line
 from bubblesim.scripting.api.checked_calls import checked_on_failure
-from bubblesim.scripting.api.ros.context import RosContext
+from bubblesim.scripting.api.ros.context import RosContext, with_slashes
 from bubblesim.scripting.api.ros.kinds import RosHandle
 from bubblesim.scripting.api.ros.stamps import Message, stamps
 from bubblesim.scripting.caller import Caller
@@ -63,6 +63,7 @@ class RosTopics(RosContext):
         """Do nothing; for older scripts: uint8[] is always bytes."""
 
     def _advertise(self, topic: str, message_type: str, qos: _core.Qos | int) -> int:
+        message_type = with_slashes(message_type)
         publisher = int(self._bridge.advertise(topic, message_type, qos))
         self._caller.at_end["publisher", publisher] = lambda: self._bridge.shutdown_publisher(publisher)
         self._topics[publisher] = topic
@@ -94,6 +95,7 @@ class RosTopics(RosContext):
         guarded: Callable[[dict[str, Any]], None],
         qos: _core.Qos | int,
     ) -> int:
+        message_type = with_slashes(message_type)
         subscriber = int(self._bridge.subscribe(topic, message_type, guarded, qos, self._time_form))
         self._caller.at_end["subscriber", subscriber] = lambda: self._bridge.shutdown_subscriber(subscriber)
         return subscriber

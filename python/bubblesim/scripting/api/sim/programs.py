@@ -7,24 +7,28 @@ import shlex
 import subprocess
 
 from bubblesim.scripting.allowed_programs import find_program, refused_argument
-from bubblesim.scripting.api.sim.context import ApiContext
+from bubblesim.scripting.api.sim.logs import LogFunctions
 
 _MOST_RUNNING = 64  # programs of one caller
 
 
-class ProgramFunctions(ApiContext):
+class ProgramFunctions(LogFunctions):
     """Programs started by a script end with it, together with their child processes."""
 
     def launchExecutable(self, file: str, arguments: str = "", show_status: int = 1) -> int:
         """Start a program of this package or on PATH; ``arguments`` is split as in a shell.
 
-        Returns its process id. A Lua script or a remote client can start the programs that the package.xml of their
-        ROS package lists, and those given by the node's option --allow-programs; for others it raises a
-        PermissionError.
+        Returns its process id; -1, with a warning, if there is no such program. A Lua script or a remote client can
+        start the programs that the package.xml of their ROS package lists, and those given by the node's option
+        --allow-programs; for others it raises a PermissionError.
         """
         caller = self._caller
-        program = find_program(file)
         words = shlex.split(arguments)
+        try:
+            program = find_program(file)
+        except FileNotFoundError as error:
+            self.addLog(self.verbosity_scriptwarnings, f"sim.launchExecutable: {error}")
+            return -1
         if not caller.may_start(program):
             raise PermissionError(
                 f"{caller.object_path} must not start {program}, which no ROS package lists for scripts; allow it with "

@@ -70,7 +70,7 @@ class ScriptParameterFunctions(ApiContext):
         known: str | None = self._caller.shared.script_parameters.get((handle, name))
         if known is not None:
             return known
-        of_file: list[tuple[str, str, str]] = getattr(self._world, "script_parameters", lambda handle: [])(handle)
+        of_file: list[tuple[str, str, str]] = self._world.script_parameters(handle)
         return next((value for of, _, value in of_file if of == name), None)
 
     def _parameter_value(self, handle: int, name: str, force_string: bool) -> Any:

@@ -15,10 +15,10 @@ from bubblesim.scripting.api.sim.graphs import GraphFunctions
 from bubblesim.scripting.api.sim.joints import JointFunctions
 from bubblesim.scripting.api.sim.logs import LogFunctions
 from bubblesim.scripting.api.sim.matrices import MatrixFunctions
-from bubblesim.scripting.api.sim.motion import MotionFunctions
 from bubblesim.scripting.api.sim.object_collections import CollectionFunctions
 from bubblesim.scripting.api.sim.objects import ObjectFunctions
 from bubblesim.scripting.api.sim.old_functions import OldFunctions
+from bubblesim.scripting.api.sim.old_motion import OldMotionFunctions
 from bubblesim.scripting.api.sim.old_user_interfaces import OldUserInterfaceFunctions
 from bubblesim.scripting.api.sim.packing import PackFunctions
 from bubblesim.scripting.api.sim.parameters import ParameterFunctions
@@ -40,7 +40,7 @@ from bubblesim.scripting.api.sim.vision import VisionFunctions
 
 @script_module("sim")
 class SimApi(
-    MotionFunctions,
+    OldMotionFunctions,
     PathFunctions,
     ObjectFunctions,
     SceneFileFunctions,
@@ -65,8 +65,8 @@ class SimApi(
     GraphFunctions,
     OldFunctions,
     AcceptedFunctions,
-    LogFunctions,
     ProgramFunctions,
+    LogFunctions,
     ScriptFunctions,
     ScriptParameterFunctions,
     SelectionFunctions,
