@@ -30,9 +30,9 @@ struct PlacedShape {
 
 /// Where two sets of links are nearest to each other.
 struct NearestPoints {
-  double distance = 0;  ///< m; 0 where they touch or overlap
-  Vector3 on_first;     ///< in the world
-  Vector3 on_second;
+  double distance = 0;                 ///< m; 0 where they touch or overlap
+  Vector3 on_first = Vector3::Zero();  ///< in the world
+  Vector3 on_second = Vector3::Zero();
   ObjectId first = kNoObject;  ///< the links
   ObjectId second = kNoObject;
 };

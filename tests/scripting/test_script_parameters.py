@@ -3,20 +3,20 @@
 
 from pathlib import Path
 
-from node_support import run_script, write
+from node_support import run_sim, write
 
 SCENE = """<?xml version="1.0"?>
 <sdf version="1.9" xmlns:bubblesim="https://bubblesim"><world name="w">
   <physics type="ode"><max_step_size>0.005</max_step_size></physics>
-  <model name="Robot"><static>true</static><link name="link"/>
-    <bubblesim:place><id>1</id>
+  <model name="Robot"><static>true</static><bubblesim:is_object>false</bubblesim:is_object><link name="Robot">
+    <bubblesim:place><id>1</id><script>script.lua</script>
       <parameter name="speed" unit="m/s">0.5</parameter>
       <parameter name="count" unit="">12</parameter>
       <parameter name="on" unit="">true</parameter>
       <parameter name="name" unit="">Bill</parameter>
       <parameter name="none" unit="">nil</parameter>
     </bubblesim:place>
-  </model>
+  </link></model>
 </world></sdf>
 """
 
@@ -35,8 +35,8 @@ def test_parameters_have_the_type_of_their_string(tmp_path: Path) -> None:
             print(#values, values[1], handles[1] == sim.getObject('.'))
         end
     """
-    scene = str(tmp_path / "robot.sdf")
-    run = run_script(tmp_path, code, "--strict", scene=scene, target="/Robot", name="script.lua", until=0.05)
+    write(tmp_path / "script.lua", code)
+    run = run_sim(tmp_path / "robot.sdf", "--no-ros", "--speed", "max", "--until", 0.05, "--strict")
     assert run.stdout.splitlines() == [
         "1.0\t13\ttrue\tBill\tnil\tnil",
         "string",

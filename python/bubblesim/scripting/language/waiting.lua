@@ -48,10 +48,10 @@ end
 
 local read_tube = sim.tubeRead
 function sim.tubeRead(tube, blocking)
-  local packet = read_tube(tube)
+  local packet = read_tube(tube, blocking)
   while packet == nil and blocking do
     next_step("tubeRead")
-    packet = read_tube(tube)
+    packet = read_tube(tube, blocking)
   end
   return packet
 end

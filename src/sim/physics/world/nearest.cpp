@@ -75,9 +75,9 @@ class Search {
     }
   }
 
-  const std::optional<NearestPoints>& found() const { return found_; }
+  std::optional<NearestPoints> found() const { return is_found_ ? std::optional(found_) : std::nullopt; }
   /// Nothing can be nearer.
-  bool is_done() const { return found_ && found_->distance <= 0; }
+  bool is_done() const { return is_found_ && found_.distance <= 0; }
 
  private:
   std::vector<ConvexShape> near_shapes(const ConvexShape& shape, const Collider& collider) const {
@@ -132,13 +132,15 @@ class Search {
   }
 
   void keep(double distance, const Vector3& on_a, const Vector3& on_b, const Collider& a, const Collider& b) {
-    if (found_ && distance >= found_->distance) return;
+    if (is_found_ && distance >= limit_) return;
     found_ = NearestPoints{distance, on_a, on_b, a.link->object, b.link->object};
+    is_found_ = true;
     limit_ = distance;
   }
 
   double limit_;
-  std::optional<NearestPoints> found_;
+  bool is_found_ = false;  // beside it: GCC 14 warns of an optional that may be without a value
+  NearestPoints found_;
 };
 
 }  // namespace

@@ -123,15 +123,18 @@ class LookFunctions(DistanceFunctions, LogFunctions):
         file is a path, for a caller that may use files, or the bytes of a file."""
         import io
 
-        from PIL import Image
+        from PIL import Image, UnidentifiedImageError
 
         if isinstance(file, str) and not self._caller.may_use_files:
             raise PermissionError("sim.loadImage reads files: a Python script may, and clients of --remote-trusted")
         source = Path(file) if isinstance(file, str) else io.BytesIO(bytes(file))
-        with Image.open(source) as picture:
-            if picture.width * picture.height > _MOST_PIXELS:
-                raise ValueError(f"an image has at most {_MOST_PIXELS} pixels")
-            pixels = np.asarray(picture.convert("RGBA" if options & 1 else "RGB"))[::-1]
+        try:
+            with Image.open(source) as picture:
+                if picture.width * picture.height > _MOST_PIXELS:
+                    raise ValueError(f"an image has at most {_MOST_PIXELS} pixels")
+                pixels = np.asarray(picture.convert("RGBA" if options & 1 else "RGB"))[::-1]
+        except UnidentifiedImageError:
+            raise ValueError("sim.loadImage: the file is not an image of a known format, such as PNG or JPEG") from None
         return pixels.tobytes(), [pixels.shape[1], pixels.shape[0]]
 
     def transformBuffer(self, data: Bytes, from_type: int, factor: float, offset: float, to_type: int) -> bytes:
