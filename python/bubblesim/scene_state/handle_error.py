@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+MAX_HANDLE = 2**31 - 1
+
 
 class HandleError(ValueError):
     """A number that is not a handle of an object."""

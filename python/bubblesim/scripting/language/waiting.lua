@@ -39,6 +39,9 @@ function sim.wait(seconds, of_simulation)
 end
 
 function sim.waitForSignal(name)
+  if type(name) ~= "string" or not utf8.len(name) then
+    fail("sim.waitForSignal: argument 1, name: expected a string, found " .. (type(name) == "string" and "bytes" or type(name)))
+  end
   while true do
     local value = sim.getInt32Signal(name) or sim.getFloatSignal(name) or sim.getStringSignal(name)
     if value ~= nil then return value end

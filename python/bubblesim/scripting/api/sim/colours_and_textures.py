@@ -127,7 +127,9 @@ class LookFunctions(DistanceFunctions, LogFunctions):
 
         if isinstance(file, str) and not self._caller.may_use_files:
             raise PermissionError("sim.loadImage reads files: a Python script may, and clients of --remote-trusted")
-        source = Path(file) if isinstance(file, str) else io.BytesIO(bytes(file))
+        if not isinstance(file, str | bytes | bytearray):
+            raise TypeError(f"sim.loadImage: argument 2, file: expected a path or bytes, found {type(file).__name__}")
+        source = Path(file) if isinstance(file, str) else io.BytesIO(file)
         try:
             with Image.open(source) as picture:
                 if picture.width * picture.height > _MOST_PIXELS:
@@ -135,6 +137,8 @@ class LookFunctions(DistanceFunctions, LogFunctions):
                 pixels = np.asarray(picture.convert("RGBA" if options & 1 else "RGB"))[::-1]
         except UnidentifiedImageError:
             raise ValueError("sim.loadImage: the file is not an image of a known format, such as PNG or JPEG") from None
+        except OSError as error:
+            raise ValueError(f"sim.loadImage: cannot read {file!r}: {error.strerror or error}") from None
         return pixels.tobytes(), [pixels.shape[1], pixels.shape[0]]
 
     def transformBuffer(self, data: Bytes, from_type: int, factor: float, offset: float, to_type: int) -> bytes:

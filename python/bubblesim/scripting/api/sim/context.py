@@ -6,12 +6,10 @@ from __future__ import annotations
 from typing import Any
 
 from bubblesim._core import RunState
-from bubblesim.scene_state.handle_error import HandleError
+from bubblesim.scene_state.handle_error import MAX_HANDLE, HandleError
 from bubblesim.scene_state.object_tree import ObjectTree
 from bubblesim.scripting.api.sim.constants import SimConstants
 from bubblesim.scripting.caller import Caller
-
-_MAX_HANDLE = 2**31 - 1
 
 
 class ApiContext(SimConstants):
@@ -41,7 +39,7 @@ class ApiContext(SimConstants):
 
     def _resolve(self, handle: int) -> int:
         """Convert sim.handle_self and sim.handle_parent to the handle of an object."""
-        if 0 <= handle <= _MAX_HANDLE:
+        if 0 <= handle <= MAX_HANDLE:
             return self._edits.replaced.get(handle, handle) if self._edits.replaced else handle
         if handle == self.handle_self:
             return self._caller.object_handle

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from bubblesim._core import camera_optics, override_image, read_camera
+from bubblesim.scene_state.handle_error import MAX_HANDLE, HandleError
 from bubblesim.scripting.api.functions import script_module
 from bubblesim.scripting.api.kinds import Handle, Integers, Numbers, Vector3
 from bubblesim.scripting.api.vision import work_images
@@ -278,7 +279,11 @@ class SimVision:
         raise RuntimeError("simVision.handleSpherical is not supported: use a lidar, or several cameras")
 
     def _resolve(self, sensor: int) -> int:
-        return self._caller.object_handle if sensor == _SELF else sensor
+        if sensor == _SELF:
+            return self._caller.object_handle
+        if not 0 <= sensor <= MAX_HANDLE:
+            raise HandleError(sensor)
+        return self._caller.shared.edits.replaced.get(sensor, sensor)
 
     def _work(self, sensor: int) -> _Work:
         handle = self._resolve(sensor)
