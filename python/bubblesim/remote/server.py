@@ -68,13 +68,15 @@ class RemoteServer:
             self._socket = ClientSocket(listening, self._handle, self._note_lost)
             undo.callback(self._socket.close)
             self._control = ControlLane(self._context, socket) if socket else None
+            if self._control is not None:
+                undo.callback(self._control.close)
+            self._clients = Clients(self, note_clients)
+            self._calls = Calls(self._socket, self._wake_up)
+            self._requests = Requests(self._socket, self._clients, self._calls, secret)
+            self._stops = WaitingStops(
+                self._socket.router, self._socket.connections, self._requests.constant_reply, self._requests.has_token
+            )
             undo.pop_all()
-        self._clients = Clients(self, note_clients)
-        self._calls = Calls(self._socket, self._wake_up)
-        self._requests = Requests(self._socket, self._clients, self._calls, secret)
-        self._stops = WaitingStops(
-            self._socket.router, self._socket.connections, self._requests.constant_reply, self._requests.has_token
-        )
         if trusted:
             write_line(
                 sys.stderr,
