@@ -31,6 +31,7 @@ from bubblesim.scripting.host.child_script import ChildScript
 from bubblesim.scripting.host.known_problems import KnownProblems
 from bubblesim.scripting.host.script_descriptions import described
 from bubblesim.scripting.host.started_programs import end_programs
+from bubblesim.scripting.host.substep_callbacks import SubstepCallbacks
 from bubblesim.scripting.host.watchdog import Watchdog
 from bubblesim.scripting.language import script_output
 from bubblesim.scripting.language.source import read_text
@@ -77,6 +78,9 @@ class ScriptHost:
         self.stops_elsewhere: list[Callable[[], bool]] = []
         """Return whether a stop waits that neither the bridge nor the runner knows; called in the watchdog's thread."""
         self.shared = SharedData(has_ros=bridge is not None, scripts=self, log=Log(lambda: float(self.simulation.time)))
+        self._substeps = SubstepCallbacks(runner, self.shared.edits)
+        self._substeps_stale = False  # scripts were loaded, removed or disabled
+        self._begun = False  # sysCall_beforeSimulation was called in this run
         self.shared.edits.stopped = lambda: bool(runner.state == _core.RunState.STOPPED)
         self._problems = KnownProblems(self.simulation.scene.warnings)
         self._placed = [(path, self.simulation.object(path).handle, Path(file)) for path, file in scripts]
@@ -94,6 +98,7 @@ class ScriptHost:
         """Load the scripts from their files; for the simulation's thread."""
         self._watchdog = Watchdog(self)
         try:
+            self._begun = False
             self.shared.graphs.begin_run()
             for path, handle, file in self._placed:
                 self.scripts += [self._load(path, handle, file)]
@@ -111,8 +116,9 @@ class ScriptHost:
         self.count_disabled()
 
     def count_disabled(self) -> None:
-        """Update ``disabled``, which the node reads in each step."""
+        """Update ``disabled``, which the node reads in each step, after a script was loaded, removed or disabled."""
         self.disabled = sum(script.failed for script in self.scripts)
+        self._substeps_stale = True
 
     def stop(self) -> None:
         """End and remove the scripts, with all remaining data: signals, open files and sockets."""
@@ -240,10 +246,23 @@ class ScriptHost:
         """Call sysCall_actuation of all scripts."""
         if self._next_check < math.inf:
             self._reload_edited()
+        if not self._begun:
+            self._begin()
         for script in self.scripts:
             script.actuate()
+        if self._substeps_stale:
+            self._substeps_stale = False
+            self._substeps.prepare(self.scripts)
+        self._substeps.begin_step()
         if self.shared.edits.holds:
             self.shared.edits.apply(self.simulation.world, self.simulation.time_step)
+
+    def _begin(self) -> None:
+        """Call sysCall_init of scripts with sysCall_beforeSimulation, and then that, before all others."""
+        self._begun = True
+        for script in [script for script in self.scripts if script.has_hook("sysCall_beforeSimulation")]:
+            script.begin()
+            script.call_hook("sysCall_beforeSimulation")
 
     def _reload_edited(self) -> None:
         now = time.monotonic()
@@ -265,6 +284,7 @@ class ScriptHost:
 
     def sense(self) -> None:
         """Call sysCall_sensing of all scripts, and then record graphs."""
+        self._substeps.end_step()
         if self.shared.edits.holds:
             self.shared.edits.apply(self.simulation.world)
         for script in self.scripts:
@@ -302,6 +322,7 @@ class ScriptHost:
     def finish(self) -> None:
         """Call sysCall_cleanup of all scripts and release their resources."""
         try:
+            self._substeps.prepare([])
             _finish(self.scripts)
         finally:
             if self._watchdog is not None:
@@ -310,7 +331,13 @@ class ScriptHost:
 
 
 def _finish(scripts: list[ChildScript]) -> None:
+    """End scripts; those with sysCall_afterSimulation after the others."""
+    last = [script for script in scripts if script.has_hook("sysCall_afterSimulation")]
     for script in scripts:
+        if script not in last:
+            script.clean_up()
+    for script in last:
+        script.call_hook("sysCall_afterSimulation")
         script.clean_up()
     end_programs([program for script in scripts for program in script.programs])  # together, because each may take long
     for script in scripts:

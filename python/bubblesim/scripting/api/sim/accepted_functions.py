@@ -13,12 +13,6 @@ from bubblesim.scripting.api.sim.logs import LogFunctions
 class AcceptedFunctions(LogFunctions):
     """Objects that scripts cannot make here are dummies with a pose and a name; a warning states it once."""
 
-    def createJoint(
-        self, kind: int, mode: int = 0, options: int = 0, sizes: Any = None, colour: Any = None, other: Any = None
-    ) -> int:
-        """Return a dummy in place of a joint: joints are made in the scene's file, or in simIK."""
-        return self._stand_in_for("Joint", "createJoint", "a joint that a script creates moves nothing: it is a dummy")
-
     def createProximitySensor(
         self, kind: int, subtype: int = 0, options: int = 0, integers: Any = None, floats: Any = None, more: Any = None
     ) -> int:

@@ -26,7 +26,7 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         joint, visionintparam_resolution_x and y of a camera, shapeintparam_static and shapeintparam_respondable of a
         model or link, proxintparam_entity_to_detect of a proximity sensor.
 
-        The control modes of joints are sim.jointdynctrl_free, force, velocity and position.
+        The control modes of joints are sim.jointdynctrl_free, force, velocity, position, and callback: sysCall_joint.
         """
         handle = self._resolve(handle)
         read = self._integers().get(parameter)
@@ -205,15 +205,22 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         return [first, first + 1, first + 2, turning, turning + 1, turning + 2]
 
     def _control_mode(self, joint: int) -> int:
+        if self._edits.callback_joints.get(joint, self._world.is_driven_by_callback(joint)):
+            return self.jointdynctrl_callback
         mode = self._world.motor_mode(joint)
         return next(number for number, known in self._control_modes().items() if known == mode)
 
     def _set_control_mode(self, joint: int, value: int) -> None:
+        if value == self.jointdynctrl_callback:
+            self._world.motor_mode(joint)  # raises
+            self._edits.callback_joints[joint] = True
+            return
         if value not in self._control_modes():
             raise ValueError(
                 f"{value} is not a control mode of a joint; valid ones: sim.jointdynctrl_free, jointdynctrl_force, "
-                "jointdynctrl_velocity and jointdynctrl_position"
+                "jointdynctrl_velocity, jointdynctrl_position and jointdynctrl_callback"
             )
+        self._edits.callback_joints[joint] = False
         self._world.set_motor_mode(joint, self._control_modes()[value])
 
     def _enable_motor(self, joint: int, value: int) -> None:
