@@ -37,6 +37,8 @@ class SceneEdits:
     """Poses in the world that were set while the simulation was stopped, in the order of their setting."""
     shapes: dict[int, PrimitiveShape] = field(default_factory=dict)
     """Created shapes, by the handle of their model."""
+    sensors: dict[int, int] = field(default_factory=dict)
+    """Created sensors, by the handle of their link, which is the object that callers know."""
     sources: dict[int, str] = field(default_factory=dict)
     """SDFormat strings of models that callers have added."""
     originals: dict[int, str] = field(default_factory=dict)
@@ -109,6 +111,7 @@ class SceneEdits:
                 self.holds,
                 self.placed,
                 self.shapes,
+                self.sensors,
                 self.sources,
             ]
             tables += [self.originals, self.colours.links, self.numbers.links]

@@ -9,6 +9,7 @@ import sys
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from bubblesim import _core
@@ -80,6 +81,7 @@ class ScriptHost:
         self.shared = SharedData(has_ros=bridge is not None, scripts=self, log=Log(lambda: float(self.simulation.time)))
         self._substeps = SubstepCallbacks(runner, self.shared.edits)
         self._substeps_stale = False  # scripts were loaded, removed or disabled
+        self._texts: TemporaryDirectory[str] | None = None  # with the files of added scripts
         self._begun = False  # sysCall_beforeSimulation was called in this run
         self.shared.edits.stopped = lambda: bool(runner.state == _core.RunState.STOPPED)
         self._problems = KnownProblems(self.simulation.scene.warnings)
@@ -99,6 +101,8 @@ class ScriptHost:
         self._watchdog = Watchdog(self)
         try:
             self._begun = False
+            contains = self.simulation.world.contains  # objects of added scripts may have ended with the last run
+            self._placed = [script for script in self._placed if contains(script[1])]
             self.shared.graphs.begin_run()
             for path, handle, file in self._placed:
                 self.scripts += [self._load(path, handle, file)]
@@ -129,13 +133,25 @@ class ScriptHost:
 
     def add_script(self, path: str, file: Path) -> None:
         """Register the script of an added model, and load it unless the simulation is stopped."""
-        handle = self.simulation.object(path).handle
-        self._placed.append((path, handle, Path(file)))
+        self._place(path, self.simulation.object(path).handle, Path(file))
+
+    def _place(self, path: str, handle: int, file: Path) -> None:
+        self._placed.append((path, handle, file))
         self._placed.sort(key=lambda script: _turn(script[0], script[1]))
         if self.runner.state == _core.RunState.STOPPED:
             return
-        loaded = [*self.scripts, self._load(path, handle, Path(file))]
+        loaded = [*self.scripts, self._load(path, handle, file)]
         self._keep(sorted(loaded, key=lambda script: _turn(script.object_path, script.object_handle)))
+
+    def add_text(self, handle: int, text: str, suffix: str) -> None:
+        """Attach a script to an object, from its text in a file of its own; raise ValueError if it has one."""
+        if self.has_script(handle):
+            raise ValueError(f"{self.simulation.world.short_path(handle)} has a script")
+        if self._texts is None:
+            self._texts = TemporaryDirectory(prefix="bubblesim_scripts_")
+        file = Path(self._texts.name) / f"script_{handle}.{suffix}"
+        file.write_text(text, encoding="utf-8")
+        self._place(self.simulation.world.path(handle), handle, file)
 
     def model_removing(self, model: int) -> None:
         """Call sysCall_cleanup of the scripts of a model that is about to be removed, and remove them."""

@@ -14,6 +14,7 @@
 --   host.wait         the function of waiting.lua; host.waiting and host.go_on are for it
 --   host.added        by name, functions that make a module from the globals
 --   host.read_file, host.getenv  see libraries.lua
+--   host.objects      the function of objects.lua; host.member and host.own are for it
 --   host.libraries    the function of libraries.lua
 --   host.whole        returns a string with the whole paths of the script's files
 --   host.shown        the function returned by shown_values.lua
@@ -252,6 +253,8 @@ local sim = modules.sim
 host.wait(sim, host.waiting, checked(host.go_on), function() return running() == thread end, function(enabled)
   is_stepping = enabled
 end, fail)
+
+host.objects(sim, checked(host.member), host.own, fail)
 
 local inverse = sim.invertMatrix
 function sim.invertMatrix(matrix)  -- the argument changes, as in the original

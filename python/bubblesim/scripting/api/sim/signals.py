@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from bubblesim._core import read_lidar, reading_time
-from bubblesim.scripting.api.kinds import Handle, TextOrBytes
+from bubblesim.scripting.api.kinds import NO_OPTIONS, Handle, Options, TextOrBytes
 from bubblesim.scripting.api.sim.context import ApiContext
 
 _DATA_PREFIX = "customData."
@@ -67,9 +67,9 @@ class SignalFunctions(ApiContext):
         object."""
         self._set_property(str, target, name, value)
 
-    def getStringProperty(self, target: Handle, name: str) -> str | bytes | None:
+    def getStringProperty(self, target: Handle, name: str, options: Options = NO_OPTIONS) -> str | bytes | None:
         """Return the text 'signal.NAME' of the scene, or 'customData.NAME' of it or an object."""
-        if self._data_key(target, name) is None:
+        if target == self.handle_scene and name.startswith(_PREFIX):
             return self._get_text(self._signal(target, name))
         value: str | bytes | None = self._get_property(str, target, name)
         return value
@@ -79,7 +79,7 @@ class SignalFunctions(ApiContext):
         object."""
         self._set_property(float, target, name, value)
 
-    def getFloatProperty(self, target: Handle, name: str) -> float | None:
+    def getFloatProperty(self, target: Handle, name: str, options: Options = NO_OPTIONS) -> float | None:
         """Return the number 'signal.NAME' of the scene, or 'customData.NAME' of it or an object."""
         value: float | None = self._get_property(float, target, name)
         return value
@@ -89,7 +89,7 @@ class SignalFunctions(ApiContext):
         object."""
         self._set_property(int, target, name, value)
 
-    def getIntProperty(self, target: Handle, name: str) -> int | None:
+    def getIntProperty(self, target: Handle, name: str, options: Options = NO_OPTIONS) -> int | None:
         """Return the integer 'signal.NAME' of the scene, or 'customData.NAME' of it or an object."""
         value: int | None = self._get_property(int, target, name)
         return value
