@@ -4,10 +4,10 @@
 from pathlib import Path
 
 import pytest
-from ttt_files import FLOOR, arm, script
-from ttt_files import write as write_ttt
 
 from node_support import run_script, run_sim, without_slowness, write
+from ttt_files import FLOOR, arm, script
+from ttt_files import write as write_ttt
 
 
 def lines(folder: Path, code: str, *, scene: object = "ball", until: float = 0.2, name: str = "script.py") -> list[str]:

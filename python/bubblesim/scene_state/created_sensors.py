@@ -39,8 +39,8 @@ _POSE = f"<pose>0 0 0 {-math.pi / 2!r} {-math.pi / 2!r} 0</pose>"
 def proximity_sensor(kind: int, floats: Sequence[float]) -> CreatedSensor:
     """Return a proximity sensor.
 
-    :param floats: as of sim.createProximitySensor: offset, range, sizes near x, y and far x, y, gap, radius near and far
-        (m), angle, largest angle to the surface (rad), smallest distance (m).
+    :param floats: as of sim.createProximitySensor: offset, range, sizes near x, y and far x, y, gap, radius near and
+        far (m), angle, largest angle to the surface (rad), smallest distance (m).
     """
     if kind not in _VOLUMES:
         raise ValueError(f"{kind} is not a proximity sensor: use sim.proximitysensor_pyramid_subtype, cylinder ...")
@@ -52,7 +52,7 @@ def proximity_sensor(kind: int, floats: Sequence[float]) -> CreatedSensor:
     farthest = near + reach
     least = max(smallest, near, 0.0)
     if not least < farthest:
-        raise ValueError(f"the range of a proximity sensor must be above 0 and its smallest distance, found {reach:g} m")
+        raise ValueError(f"the range of a proximity sensor must be above its smallest distance, found {reach:g} m")
     half = {
         "cone": angle / 2,
         "disc": angle / 2,
@@ -64,8 +64,9 @@ def proximity_sensor(kind: int, floats: Sequence[float]) -> CreatedSensor:
     limit = f"<bubblesim:max_normal_angle>{min(threshold, math.pi)!r}</bubblesim:max_normal_angle>"
     return CreatedSensor(
         "Proximity_sensor",
-        f'<sensor name="sensor" type="sonar">{_POSE}<sonar><min>{least!r}</min><max>{farthest!r}</max><radius>{radius!r}'
-        f"</radius><bubblesim:volume>{volume}</bubblesim:volume>{limit if threshold > 0 else ''}</sonar></sensor>",
+        f'<sensor name="sensor" type="sonar">{_POSE}<sonar><min>{least!r}</min><max>{farthest!r}</max>'
+        f"<radius>{radius!r}</radius><bubblesim:volume>{volume}</bubblesim:volume>{limit if threshold > 0 else ''}"
+        "</sonar></sensor>",
     )
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from bubblesim._core import add_copy, copy_model
 from bubblesim.scene_state.primitive_shapes import PrimitiveShape
+from bubblesim.scene_state.text_shapes import text_sdf
 from bubblesim.scripting.api.kinds import Handle, Integers, Numbers, Vector3
 from bubblesim.scripting.api.sim.logs import LogFunctions
 from bubblesim.scripting.api.sim.object_changes import ObjectChangeFunctions
@@ -89,6 +90,14 @@ class CreatedObjectFunctions(ObjectChangeFunctions, LogFunctions):
             raise ValueError(f"the mass of a shape must be positive, found {mass:g}")
         flags = {"static": bool(options & _STATIC), "respondable": bool(options & _RESPONDABLE)}
         return self._add_shape(PrimitiveShape(kinds[primitive_type], list(sizes), mass, **flags))
+
+    def generateTextShape(
+        self, text: str, colour: Any = None, height: float = 0.1, centred: bool = False, alphabet: Any = None
+    ) -> int:
+        """Create a text and return its handle; not in sysCall_sensing. It lies along x, its letters up along y, with a
+        ``height`` in m, and collides with nothing. It stays until it is removed or the scene is closed."""
+        shades = [float(part) for part in colour] if isinstance(colour, list | tuple) else [1.0, 1.0, 1.0]
+        return self._tree.object_of(self._add_model(text_sdf(text, shades[:3], height, centred=centred), "Text"))
 
     def removeObjects(self, handles: Integers, delayed: bool = False) -> int:
         """Remove dummies and whole models; return their number. ``delayed`` has no effect.

@@ -35,7 +35,7 @@ class CreatedSensorFunctions(CreatedObjectFunctions):
             raise ValueError(f"a vision sensor needs width and height in pixels, found {len(integers)} numbers")
         rate = 1 / float(self._simulation.time_step)
         is_perspective = bool(options & _PERSPECTIVE)
-        return self._add_sensor(vision_sensor(*integers[:2], floats, rate, is_perspective=is_perspective))
+        return self._add_sensor(vision_sensor(integers[0], integers[1], floats, rate, is_perspective=is_perspective))
 
     def _add_sensor(self, sensor: CreatedSensor) -> int:
         model = self._add_model(sensor.sdf(), sensor.name)

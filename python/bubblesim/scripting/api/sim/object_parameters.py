@@ -175,8 +175,12 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
             self.jointintparam_ctrl_enabled: lambda joint: int(self._control_mode(joint) == self.jointdynctrl_position),
             self.shapeintparam_static: lambda shape: int(self._is_static(shape)),
             self.shapeintparam_respondable: lambda shape: int(self._is_respondable(shape)),
-            self.visionintparam_resolution_x: lambda camera: int(camera_optics(self._simulation, self._sensor(camera))[0]),
-            self.visionintparam_resolution_y: lambda camera: int(camera_optics(self._simulation, self._sensor(camera))[1]),
+            self.visionintparam_resolution_x: lambda camera: int(
+                camera_optics(self._simulation, self._sensor(camera))[0]
+            ),
+            self.visionintparam_resolution_y: lambda camera: int(
+                camera_optics(self._simulation, self._sensor(camera))[1]
+            ),
             self.proxintparam_entity_to_detect: self._entity_to_detect,
         }
 
@@ -195,7 +199,9 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         return {
             self.jointfloatparam_velocity: lambda joint: float(self._world.joint_velocity(joint)),
             self.jointfloatparam_upper_limit: lambda joint: float(self._world.joint_limits(joint)[1]),
-            self.visionfloatparam_perspective_angle: lambda camera: float(camera_optics(self._simulation, self._sensor(camera))[2]),
+            self.visionfloatparam_perspective_angle: lambda camera: float(
+                camera_optics(self._simulation, self._sensor(camera))[2]
+            ),
             self.objfloatparam_size_factor: lambda handle: 1.0,
             self.shapefloatparam_mass: lambda shape: self.getShapeMass(self._shown(shape)),
         }
@@ -203,6 +209,10 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
     def _velocities(self) -> list[int]:
         first, turning = self.shapefloatparam_init_velocity_x, self.shapefloatparam_init_velocity_a
         return [first, first + 1, first + 2, turning, turning + 1, turning + 2]
+
+    def _optics_of(self, camera: int) -> tuple[int, int, float]:
+        columns, rows, angle = camera_optics(self._simulation, self._sensor(camera))
+        return columns, rows, angle
 
     def _control_mode(self, joint: int) -> int:
         if self._edits.callback_joints.get(joint, self._world.is_driven_by_callback(joint)):

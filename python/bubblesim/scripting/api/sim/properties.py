@@ -7,7 +7,17 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from bubblesim.scripting.api.kinds import INTEGER, NO_OPTIONS, Handle, Integers, Numbers, Options, Vector3, Vector4, Vector7
+from bubblesim.scripting.api.kinds import (
+    INTEGER,
+    NO_OPTIONS,
+    Handle,
+    Integers,
+    Numbers,
+    Options,
+    Vector3,
+    Vector4,
+    Vector7,
+)
 from bubblesim.scripting.api.sim.constants import SimConstants as Sim
 from bubblesim.scripting.api.sim.custom_data import CustomDataFunctions
 from bubblesim.scripting.api.sim.scene_objects import SceneObject
@@ -163,7 +173,7 @@ class PropertyFunctions(CustomDataFunctions):
     sim.handle_scene: gravity, simulationTime, simulationState, timeStep, scenePath. The option ``noError`` returns None
     (nil) for a property that an object does not have."""
 
-    def Object(self, target: Any) -> Any:  # noqa: N802  # the original's name
+    def Object(self, target: Any) -> Any:  # the original's name
         """Return an object of the scene, by its path or handle, whose properties are attributes and whose functions are
         methods: ``joint.targetVelocity = 1``, ``joint.getPosition()``. Functions take it in place of a handle. sim.self
         is the script's own object, sim.scene the scene. For child scripts."""

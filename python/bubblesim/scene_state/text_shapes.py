@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The models of texts that scripts and programs create: letters of small boxes, without collisions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+_MOST = 200  # letters
+_DEPTH = 0.1  # of the letters, as a part of their height
+
+
+def text_sdf(text: str, colour: Sequence[float], height: float, *, centred: bool) -> str:
+    """Return a static model of a text as SDFormat, along x, with its letters up along y.
+
+    :param height: of a line, m.
+    :param centred: about the origin; otherwise it begins there.
+    """
+    from PIL import Image, ImageDraw, ImageFont  # late, because few scripts make texts
+
+    if not 0 < len(text) <= _MOST or not text.isprintable():
+        raise ValueError(f"a text has 1 to {_MOST} letters, which can be printed, found {text[:20]!r}")
+    if not 0 < height < 1e3:
+        raise ValueError(f"the height of a text must be from 0 to 1000 m, found {height:g}")
+    font = ImageFont.load_default()
+    left, top, right, bottom = font.getbbox(text)
+    image = Image.new("1", (max(1, round(right - left)), max(1, round(bottom - top))))
+    ImageDraw.Draw(image).text((-left, -top), text, fill=1, font=font)
+    pixels = np.array(image)
+    rows, columns = pixels.shape
+    side = height / rows
+    middle = columns / 2 if centred else 0.0
+    parts: list[str] = []
+    for row, begin, end in _runs(pixels):
+        x, y = ((begin + end) / 2 - middle) * side, (rows / 2 - row - 0.5) * side
+        size = f"{(end - begin) * side!r} {side!r} {_DEPTH * height!r}"
+        parts.append(
+            f'<visual name="part_{len(parts)}"><pose>{x!r} {y!r} 0 0 0 0</pose><geometry><box><size>{size}</size></box>'
+            f"</geometry><material><diffuse>{' '.join(repr(float(c)) for c in colour)} 1</diffuse></material></visual>"
+        )
+    return (
+        f'<sdf version="1.9"><model name="Text"><static>true</static><link name="link">{"".join(parts)}</link></model>'
+        "</sdf>"
+    )
+
+
+def _runs(pixels: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> list[tuple[int, int, int]]:
+    """Return row, begin and end of the lines of set pixels."""
+    runs = []
+    for row, line in enumerate(pixels):
+        changes = np.flatnonzero(np.diff(np.concatenate([[False], line, [False]]).astype(int)))
+        runs += [(row, int(begin), int(end)) for begin, end in zip(changes[::2], changes[1::2], strict=True)]
+    return runs
