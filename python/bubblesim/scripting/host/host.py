@@ -20,6 +20,7 @@ from bubblesim.scene_state.log import Log
 from bubblesim.scene_state.problems import Problem
 from bubblesim.scene_state.shared_data import SharedData
 from bubblesim.scripting.api.ik.ik_module import SimIk
+from bubblesim.scripting.api.ompl.ompl_module import SimOmpl
 from bubblesim.scripting.api.ros.no_ros import NoRos
 from bubblesim.scripting.api.ros.ros_modules import SimRos, SimRos2
 from bubblesim.scripting.api.sim.remote_api_module import SimRemoteApi
@@ -234,6 +235,7 @@ class ScriptHost:
             "sim": SimApi(self.runner, script),
             "simUI": SimUi(script),
             "simIK": SimIk(self.runner, script),
+            "simOMPL": SimOmpl(self.runner, script),
             "simVision": SimVision(self.runner, script),
             "simRemoteApi": SimRemoteApi(script),
         }

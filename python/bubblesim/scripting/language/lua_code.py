@@ -258,7 +258,7 @@ class LuaCode:
         constants = {
             name: getattr(module, name)
             for name in dir(module)
-            if not name.startswith("_") and isinstance(getattr(module, name), int | float | str)
+            if not name.startswith("_") and isinstance(getattr(module, name), int | float | str | dict)
         }
         table = self._runtime.table()
         table[b"constants"] = self._values.to_lua(constants)

@@ -58,7 +58,7 @@ struct PlacedFrame {
   FrameKind kind = FrameKind::kDummy;
   bool is_added = false;                    // by WorldFrames: it is in no description
   const FrameDescription* joint = nullptr;  // of a joint without physics; otherwise null
-  std::shared_ptr<FrameDescription> own;    // the same, of one that was added
+  std::shared_ptr<FrameDescription> own{};  // the same, of one that was added
   double position = 0;                      // of that joint, rad or m
   double velocity = 0;                      // with which it moves, rad/s or m/s
   ObjectId leader = kNoObject;              // the joint that it follows
