@@ -30,9 +30,9 @@ class Names(dict[str, Any]):
 
 @script_module("simOMPL")
 class SimOmpl:
-    """Motion planning on OMPL: `scripts/setup --with planning` installs it. A task has state spaces, a start and a goal;
-    its states are lists of the numbers of all spaces. Whether a state is valid is found out in the scene, where the
-    objects are moved and put back: collision pairs, and a callback. The simulation waits, at most a minute."""
+    """Motion planning on OMPL: `scripts/setup --with planning` installs it. A task has state spaces, a start and a
+    goal; its states are lists of the numbers of all spaces. Whether a state is valid is found out in the scene, where
+    the objects are moved and put back: collision pairs, and a callback. The simulation waits, at most a minute."""
 
     StateSpaceType = Names(
         position2d=1, pose2d=2, position3d=3, pose3d=4, joint_position=5, dubins=6, cyclic_joint_position=7
@@ -70,8 +70,8 @@ class SimOmpl:
         turning_radius: float = 0.05,
         is_symmetric: bool = False,
     ) -> int:
-        """Create a state space, simOMPL.StateSpaceType.position2d, pose2d, position3d, pose3d, joint_position, dubins or
-        cyclic_joint_position, of an object or joint; return its handle.
+        """Create a state space, simOMPL.StateSpaceType.position2d, pose2d, position3d, pose3d, joint_position, dubins
+        or cyclic_joint_position, of an object or joint; return its handle.
 
         ``lower`` and ``upper`` bound the position, in m or rad; ``weight`` is that of its distances. Positions are
         relative to ``frame``, -1 for the world. States are x, y; x, y and the angle about z; x, y, z; pose; position.
