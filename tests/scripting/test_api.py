@@ -149,11 +149,11 @@ def test_the_reference_page_is_that_of_the_functions(name: str) -> None:
 
 SWEEP = """
     ODD = [None, True, -5, 10**30, float('nan'), 'text', b'bytes', [], [None], [1, 2, 3], {}, {'a': 1}, print]
-    EXCEPT = ('stopSimulation', 'pauseSimulation', 'launchExecutable', 'waitForService')
+    EXCEPT = ('stopSimulation', 'pauseSimulation', 'launchExecutable', 'waitForService', 'addScript', 'createScript')
     def sysCall_init():
         for module in MODULES:
             names = [n for n in dir(module) if callable(getattr(module, n)) and n[0] != '_' and n not in EXCEPT]
-            assert len(names) > 30
+            assert len(names) > 20
             for name in names:
                 for arguments in [(), *((a,) for a in ODD), *((a, b) for a in ODD for b in ODD)]:
                     try:

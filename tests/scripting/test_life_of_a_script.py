@@ -94,7 +94,8 @@ def test_require_gives_the_modules_whatever_version_is_asked_for(tmp_path: Path)
                 print(error)
     """
     assert lines(tmp_path, code) == [
-        "module 'simGLTF' not found; require supports sim, simUI, simIK, simOMPL, simVision, simRemoteApi, simROS, simROS2"
+        "module 'simGLTF' not found; require supports sim, simUI, simIK, simOMPL, simVision, simRemoteApi, simROS, "
+        "simROS2"
     ]
 
 
