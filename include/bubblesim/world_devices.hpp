@@ -25,8 +25,8 @@ class WorldDevices : public WorldPart {
   /// Does nothing when the device was removed with its model.
   void remove(const Device& device);
 
-  /// Is asked in each substep for each pair of shapes that touch, by the thread that advances the world; it may move objects.
-  /// An empty one removes it. It is not a part of the world's state.
+  /// Is asked in each substep for each pair of shapes that touch, by the thread that advances the world; it may move
+  /// objects. An empty one removes it. It is not a part of the world's state.
   void set_contact_filter(ContactFilter filter);
 };
 

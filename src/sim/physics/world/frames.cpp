@@ -123,10 +123,12 @@ ObjectId WorldFrames::add_joint(std::string name, const std::string& type) {
 void WorldFrames::set_joint_limits(ObjectId joint, double lower, double upper) {
   PlacedFrame* frame = kinematic_joint(state(), joint);
   if (frame == nullptr || frame->own == nullptr || frame->own->joint->axes.empty()) {
-    throw InvalidInput(state().shown(joint) + " has the limits of its file: those of joints that were added can be set");
+    throw InvalidInput(state().shown(joint) +
+                       " has the limits of its file: those of joints that were added can be set");
   }
   if (!(lower <= upper)) {
-    throw InvalidInput("the limits " + text(lower) + " and " + text(upper) + " of a joint are not usable: the lower one "
+    throw InvalidInput("the limits " + text(lower) + " and " + text(upper) +
+                       " of a joint are not usable: the lower one "
                        "must not be above the upper one");
   }
   AxisDescription& axis = frame->own->joint->axes.front();
