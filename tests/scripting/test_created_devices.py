@@ -25,7 +25,7 @@ def check(folder: Path, body: str, rest: str = "", until: float = 0.2) -> str:
     return run.stdout
 
 
-def test_an_arm_of_created_joints_moves_as_its_denavit_hartenberg_parameters_say(tmp_path: Path) -> None:
+def test_an_arm_of_created_joints_moves_as_its_denavit_hartenberg_parameters_define(tmp_path: Path) -> None:
     body = """
 first = sim.createJoint(sim.joint_revolute, sim.jointmode_kinematic, 0, [0.1, 0.02])
 second = sim.createJoint(sim.joint_prismatic, sim.jointmode_kinematic, 0)
@@ -110,7 +110,7 @@ assert 'pixels' in refused(sim.createVisionSensor, 2, [0, 1], [0.01, 10, 1])
     check(tmp_path, body)
 
 
-def test_a_text_has_its_height_and_is_seen(tmp_path: Path) -> None:
+def test_a_line_of_words_has_its_height_and_is_seen(tmp_path: Path) -> None:
     body = """
 short, long = sim.generateTextShape('I', [1, 0, 0], 0.5, True), sim.generateTextShape('IIII', [1, 0, 0], 0.5, True)
 for text in (short, long):
@@ -125,7 +125,7 @@ image = np.frombuffer(data, np.uint8).reshape(64, 64, 3).astype(int)
 rows = np.flatnonzero((image[:, :, 0] > image[:, :, 1] + 50).any(axis=1))
 # 0.5 m of the 2 m that 64 pixels show at a distance of 1 m; its near side is at 0.975 m.
 assert abs(len(rows) - 16) <= 1, len(rows)
-assert 'a text has 1 to 200 letters' in refused(sim.generateTextShape, '')
+assert 'a line has 1 to 200 letters' in refused(sim.generateTextShape, '')
 """
     check(tmp_path, body)
 

@@ -29,9 +29,9 @@ def test_dyn_is_called_before_and_after_each_substep(tmp_path: Path) -> None:
             for before, after in zip(calls[::2], calls[1::2]):
                 assert after[2] < before[2]
             assert calls[-1][2] == sim.getObjectPosition(sim.handle_self)[2]
-            print('as said')
+            print('in order')
     """
-    assert lines(tmp_path, code, until=0.1) == ["as said", "as said"]
+    assert lines(tmp_path, code, until=0.1) == ["in order", "in order"]
 
 
 def test_a_force_of_dyn_acts_for_its_substep_only(tmp_path: Path) -> None:
@@ -156,7 +156,7 @@ SONAR = """<sdf version="1.9"><world name="w">
 
 
 @pytest.mark.parametrize(("height", "expected"), [(0, ["triggered", "triggered"]), (50, [])])
-def test_a_proximity_sensor_s_script_is_told_what_it_detects(
+def test_a_proximity_sensor_s_script_receives_what_it_detects(
     tmp_path: Path, height: float, expected: list[str]
 ) -> None:
     scene = write(tmp_path / "scene.sdf", SONAR.format(height=height))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The models of texts that scripts and programs create: letters of small boxes, without collisions."""
+"""The models of words that scripts and programs create: letters of small boxes, without collisions."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ _DEPTH = 0.1  # of the letters, as a part of their height
 
 
 def text_sdf(text: str, colour: Sequence[float], height: float, *, centred: bool) -> str:
-    """Return a static model of a text as SDFormat, along x, with its letters up along y.
+    """Return a static model of a line of words as SDFormat, along x, with its letters up along y.
 
     :param height: of a line, m.
     :param centred: about the origin; otherwise it begins there.
     """
-    from PIL import Image, ImageDraw, ImageFont  # late, because few scripts make texts
+    from PIL import Image, ImageDraw, ImageFont  # late, because few scripts make words
 
     if not 0 < len(text) <= _MOST or not text.isprintable():
-        raise ValueError(f"a text has 1 to {_MOST} letters, which can be printed, found {text[:20]!r}")
+        raise ValueError(f"a line has 1 to {_MOST} letters, which can be printed, found {text[:20]!r}")
     if not 0 < height < 1e3:
-        raise ValueError(f"the height of a text must be from 0 to 1000 m, found {height:g}")
+        raise ValueError(f"the height of a line must be from 0 to 1000 m, found {height:g}")
     font = ImageFont.load_default()
     left, top, right, bottom = font.getbbox(text)
     image = Image.new("1", (max(1, round(right - left)), max(1, round(bottom - top))))

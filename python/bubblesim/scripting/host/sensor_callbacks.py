@@ -44,7 +44,7 @@ def keep_vision_result(shared: SharedData, handle: int, result: Any) -> None:
 def trigger_data(simulation: Any, handle: int, shared: SharedData) -> dict[str, Any] | None:
     """Return the argument of sysCall_trigger; None if the sensor has not triggered.
 
-    A proximity sensor triggers when it detects something, a camera when its sysCall_vision says so. A force sensor
+    A proximity sensor triggers when it detects something, a camera when its sysCall_vision returns that. A force sensor
     triggers in the original above a threshold, which files do not bring over: here it does not.
     """
     kind = kind_of(simulation, handle)

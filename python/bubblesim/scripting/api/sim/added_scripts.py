@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`sim` functions that add child scripts from texts."""
+"""`sim` functions that add child scripts from strings."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ class AddedScriptFunctions(ApiContext):
         return made
 
     def addScript(self, script_type: int, *more: Any) -> int:
-        """Create a script without a text and return its handle (old name of createScript): see setScriptText and
-        associateScriptWithObject. With a text, and a language behind it, the same as createScript."""
+        """Create a script without code and return its handle (old name of createScript): see setScriptText and
+        associateScriptWithObject. With code, and a language behind it, the same as createScript."""
         made = self._script_object(script_type)
-        texts = [each for each in more if isinstance(each, str)]
-        if texts:
-            self._begin(made, texts[0], texts[1] if len(texts) > 1 else "")
+        given = [each for each in more if isinstance(each, str)]
+        if given:
+            self._begin(made, given[0], given[1] if len(given) > 1 else "")
         return made
 
     def setScriptText(self, script: Handle, text: str) -> int:
-        """Give a text to a script of addScript, which begins when it is associated with an object (old name); return
+        """Give code to a script of addScript, which begins when it is associated with an object (old name); return
         1."""
         self._check_added(script)
         self._caller.shared.settings[str, f"text of script {script}"] = text
@@ -70,4 +70,4 @@ class AddedScriptFunctions(ApiContext):
 
     def _check_added(self, script: int) -> None:
         if not self._tree.is_created_dummy(script):
-            raise ValueError(f"{script} is not a script of sim.addScript: texts of other scripts are files")
+            raise ValueError(f"{script} is not a script of sim.addScript: the code of other scripts is in files")
