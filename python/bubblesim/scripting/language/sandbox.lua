@@ -234,9 +234,13 @@ for name, module in next, host.modules do
   globals[name] = members
 end
 
--- Functions of V-REP 3 are globals.
+-- Functions of V-REP 3 are globals, and so are the matrices of the module `matrix`.
 setmetatable(globals, {
   __index = function(_, wanted)
+    if wanted == "Matrix" or wanted == "Vector" then
+      globals.require("matrix")
+      return rawget(globals, wanted)
+    end
     if type(wanted) ~= "string" or not match(wanted, "^sim[_A-Zr]") then return nil end
     local module, present = v_rep_name(wanted)
     if not module then
@@ -286,6 +290,15 @@ function globals.require(name)
   end
   return required[name]
 end
+
+-- Old programs run other files beside their scene this way.
+local function include(name)
+  local text, chunk_name = find_source(match(tostring(name), "([^/\\]+)$"):gsub("%.lua$", ""))
+  local chunk, problem = load(text, chunk_name, "t", globals)
+  if not chunk then error(problem, 0) end
+  return chunk()
+end
+sim.includeRel, sim.includeAbs = include, include
 
 function globals.print(...)
   local strings = {}
