@@ -142,7 +142,7 @@ assert 'has a script' in refused(lambda: self.add(made))
     code = code.replace(
         "assert 'has a script' in refused(lambda: self.add(made))", "assert sim.getScript(1, made) == made"
     )
-    assert check(tmp_path, code, until=0.15).splitlines() == ["begun at 0.0", "ended"]
+    assert check(tmp_path, code, until=0.15).splitlines() == ["begun at 0.05", "ended"]
 
 
 def test_old_programs_associate_scripts_with_objects(tmp_path: Path) -> None:

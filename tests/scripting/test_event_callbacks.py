@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from node_support import run_script, run_sim, without_slowness, write
-from ttt_files import FLOOR, arm, script
+from ttt_files import arm, script
 from ttt_files import write as write_ttt
 
 
@@ -52,7 +52,7 @@ CALLBACK = 16  # sim.jointdynctrl_callback
 
 def run_arm(folder: Path, lua: str, until: float, control: int = CALLBACK) -> list[str]:
     """Run an arm on a joint at 0 rad with the target 1 rad, and a script on its base."""
-    file = write_ttt(folder / "arm.ttt", FLOOR, arm(0, control, 1), script(10, lua))
+    file = write_ttt(folder / "arm.ttt", arm(0, control, 1), script(10, lua))
     run = run_sim(file, "--no-ros", "--speed", "max", "--until", until, "--strict")
     assert run.returncode == 0, run.stderr
     assert "controlled by a callback" not in run.stderr

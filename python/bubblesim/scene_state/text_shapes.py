@@ -14,7 +14,7 @@ _DEPTH = 0.1  # of the letters, as a part of their height
 def text_sdf(text: str, colour: Sequence[float], height: float, *, centred: bool) -> str:
     """Return a static model of a line of words as SDFormat, along x, with its letters up along y.
 
-    :param height: of a line, m.
+    :param height: of a capital letter, m.
     :param centred: about the origin; otherwise it begins there.
     """
     from PIL import Image, ImageDraw, ImageFont  # late, because few scripts make words
@@ -24,16 +24,20 @@ def text_sdf(text: str, colour: Sequence[float], height: float, *, centred: bool
     if not 0 < height < 1e3:
         raise ValueError(f"the height of a line must be from 0 to 1000 m, found {height:g}")
     font = ImageFont.load_default()
-    left, top, right, bottom = font.getbbox(text)
-    image = Image.new("1", (max(1, round(right - left)), max(1, round(bottom - top))))
-    ImageDraw.Draw(image).text((-left, -top), text, fill=1, font=font)
-    pixels = np.array(image)
-    rows, columns = pixels.shape
-    side = height / rows
-    middle = columns / 2 if centred else 0.0
+
+    def drawn(words: str) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+        _, _, right, bottom = font.getbbox(words)
+        image = Image.new("1", (max(1, round(right)), max(1, round(bottom))))
+        ImageDraw.Draw(image).text((0, 0), words, fill=1, font=font)
+        return np.array(image)
+
+    pixels = drawn(text)
+    capital = np.flatnonzero(drawn("H").any(axis=1))  # rows of a capital letter, of which the height is meant
+    side = height / len(capital)
+    middle, base = (pixels.shape[1] / 2 if centred else 0.0), (capital[0] + capital[-1] + 1) / 2
     parts: list[str] = []
     for row, begin, end in _runs(pixels):
-        x, y = ((begin + end) / 2 - middle) * side, (rows / 2 - row - 0.5) * side
+        x, y = ((begin + end) / 2 - middle) * side, float(base - row - 0.5) * side
         size = f"{(end - begin) * side!r} {side!r} {_DEPTH * height!r}"
         parts.append(
             f'<visual name="part_{len(parts)}"><pose>{x!r} {y!r} 0 0 0 0</pose><geometry><box><size>{size}</size></box>'

@@ -56,6 +56,9 @@ def trigger_data(simulation: Any, handle: int, shared: SharedData) -> dict[str, 
     result, _, point, detected, normal = _core.read_proximity(simulation, handle)
     if not result:
         return None
+    model = int(simulation.world.outermost_model_of(detected))
+    if model in shared.edits.shapes:
+        detected = shared.edits.known_handle(model)
     return {
         "handle": handle,
         "detectedObjectHandle": detected,

@@ -94,8 +94,10 @@ class CreatedObjectFunctions(ObjectChangeFunctions, LogFunctions):
     def generateTextShape(
         self, text: str, colour: Any = None, height: float = 0.1, centred: bool = False, alphabet: Any = None
     ) -> int:
-        """Create a line of words and return its handle; not in sysCall_sensing. It lies along x, its letters up along y,
-        with a ``height`` in m, and collides with nothing. It stays until it is removed or the scene is closed."""
+        """Create a line of words and return its handle; not in sysCall_sensing.
+
+        It lies along x, its letters up along y, with capital letters of a ``height`` in m, and collides with nothing.
+        It stays until it is removed or the scene is closed."""
         shades = [float(part) for part in colour] if isinstance(colour, list | tuple) else [1.0, 1.0, 1.0]
         return self._tree.object_of(self._add_model(text_sdf(text, shades[:3], height, centred=centred), "Text"))
 

@@ -102,10 +102,14 @@ class SensorFunctions(CollectionFunctions):
 
     def _detected(self, reading: Reading, sensor: int) -> Reading:
         limits = self._caller.shared.collections.detected
-        return self._limited(reading, limits.get(sensor, self.handle_all)) if limits else reading
+        return self._limited(reading, limits.get(sensor, self.handle_all) if limits else self.handle_all)
 
     def _limited(self, reading: Reading, entity: int) -> Reading:
         """Return a reading without an object that does not belong to an object or collection."""
-        if reading[3] < 0 or self._belongs(reading[3], entity):
-            return reading
+        result, distance, point, found, normal = reading
+        if found >= 0 and self._edits.shapes:  # of a created shape, its link
+            model = int(self._world.outermost_model_of(found))
+            found = self._shown(model) if model in self._edits.shapes else found
+        if found < 0 or entity == self.handle_all or self._belongs(found, entity):
+            return result, distance, point, found, normal
         return _NOTHING
