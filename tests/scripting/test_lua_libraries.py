@@ -156,5 +156,5 @@ def test_old_programs_include_files_beside_the_script(tmp_path: Path) -> None:
 
 
 def test_matrices_are_there_without_require(tmp_path: Path) -> None:
-    body = "local m = Matrix(2, 2, {1, 2, 3, 4}) print((m * Vector(2, {1, 1})):data()[2])"
+    body = "local m = Matrix(2, 2, {1, 2, 3, 4}) print((m * Vector({1, 1})):data()[2])"
     assert in_init(tmp_path, body)[0] in ("7", "7.0")

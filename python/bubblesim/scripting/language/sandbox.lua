@@ -293,7 +293,7 @@ end
 
 -- Old programs run other files beside their scene this way.
 local function include(name)
-  local text, chunk_name = find_source(match(tostring(name), "([^/\\]+)$"):gsub("%.lua$", ""))
+  local text, chunk_name = find_source((match(tostring(name), "([^/\\]+)$"):gsub("%.lua$", "")))
   local chunk, problem = load(text, chunk_name, "t", globals)
   if not chunk then error(problem, 0) end
   return chunk()

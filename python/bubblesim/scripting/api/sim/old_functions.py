@@ -46,6 +46,16 @@ class OldFunctions(LogFunctions):
         sim: Any = self
         return 1, sim.getObjectStringParam(handle, parameter)
 
+    def includeRel(self, file: str) -> Any:
+        """Run a Lua file beside the script, and return what it returns; in Lua only."""
+        raise RuntimeError(
+            "sim.includeRel is for scripts in Lua: import the module, or begin the script with 'include'"
+        )
+
+    def includeAbs(self, file: str) -> Any:
+        """The same; of a path only the name of the file counts."""
+        return self.includeRel(file)
+
     def getObjectUid(self, handle: Handle) -> int:
         """Return a number that no other object has: its handle."""
         handle = self._resolve(handle)
