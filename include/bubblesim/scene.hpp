@@ -281,6 +281,7 @@ struct AxisDescription {
   MotorMode motor = MotorMode::kNone;
   double target = 0;                      ///< of the motor at the start: rad or m, rad/s or m/s, N m or N
   std::optional<MimicDescription> mimic;  ///< replaces the motor's targets
+  bool by_callback = false;               ///< the callback sysCall_joint of a script drives it
 };
 
 struct JointDescription {

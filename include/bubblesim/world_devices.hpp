@@ -2,6 +2,7 @@
 // The devices that a world calls before its physics substeps.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "bubblesim/scene_tree.hpp"
@@ -10,6 +11,9 @@
 namespace bubblesim {
 
 class Device;
+
+/// Returns whether two links whose shapes touch resist each other; static links come second. Must not throw.
+using ContactFilter = std::function<bool(ObjectId first, ObjectId second)>;
 
 class WorldDevices : public WorldPart {
  public:
@@ -20,6 +24,10 @@ class WorldDevices : public WorldPart {
   void add(std::shared_ptr<Device> device, ObjectId model = kNoObject, double rate = 0);
   /// Does nothing when the device was removed with its model.
   void remove(const Device& device);
+
+  /// Is asked in each substep for each pair of shapes that touch, by the thread that advances the world; it may move
+  /// objects. An empty one removes it. It is not a part of the world's state.
+  void set_contact_filter(ContactFilter filter);
 };
 
 }  // namespace bubblesim

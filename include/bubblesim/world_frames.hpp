@@ -16,6 +16,12 @@ class WorldFrames : public WorldPart {
 
   /// Adds a dummy, a frame at the origin of the world and the top of the tree; resets keep it.
   ObjectId add_dummy(std::string name);
+  /// Adds a joint without physics like a dummy: a revolute, continuous, prismatic or ball joint about or along the z
+  /// axis of its frame, at its position 0. Throws InvalidInput for other types.
+  ObjectId add_joint(std::string name, const std::string& type);
+  /// Sets the limits of a joint that was added, rad or m; infinite for none. Throws InvalidInput for others, and if
+  /// `lower` is above `upper`.
+  void set_joint_limits(ObjectId joint, double lower, double upper);
   /// Throws WrongObject for other objects. What is below it in the tree is at the top then, and stays where it is.
   void remove_dummy(ObjectId dummy);
   /// Throws WrongObject for other objects.

@@ -178,7 +178,7 @@ assert sim.getFloatProperty(h, 'customData.x') == 0.5 and sim.getBufferProperty(
 assert 'of type float' in refused(sim.getStringProperty, h, 'customData.x')
 sim.removeProperty(h, 'customData.x')
 assert sim.getFloatProperty(h, 'customData.x') is None
-assert "expected 'customData.NAME'" in refused(sim.setIntProperty, h, 'dynamic', 1)
+assert "expected 'customData.NAME'" in refused(sim.setIntProperty, h, 'nothing', 1)
 """
     check(tmp_path, body)
 

@@ -89,12 +89,13 @@ def test_require_gives_the_modules_whatever_version_is_asked_for(tmp_path: Path)
             assert require('sim') is sim and require('sim-2') is sim
             assert not simROS and require('simROS') is simROS
             try:
-                require('simOMPL')
+                require('simGLTF')
             except ImportError as error:
                 print(error)
     """
     assert lines(tmp_path, code) == [
-        "module 'simOMPL' not found; require supports sim, simUI, simIK, simVision, simRemoteApi, simROS, simROS2"
+        "module 'simGLTF' not found; require supports sim, simUI, simIK, simOMPL, simVision, simRemoteApi, simROS, "
+        "simROS2"
     ]
 
 

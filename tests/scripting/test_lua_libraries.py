@@ -147,3 +147,14 @@ def test_nothing_as_custom_data_removes_it(tmp_path: Path) -> None:
         print(sim.readCustomDataBlock(h, 'tag'))
     """
     assert in_init(tmp_path, body) == ["nil"]
+
+
+def test_old_programs_include_files_beside_the_script(tmp_path: Path) -> None:
+    (tmp_path / "helpers.lua").write_text("function double(x) return 2 * x end\nreturn 5")
+    body = "print(sim.includeRel('helpers.lua'), double(4), sim.includeAbs('/somewhere/helpers'))"
+    assert in_init(tmp_path, body) == ["5\t8\t5"]
+
+
+def test_matrices_are_there_without_require(tmp_path: Path) -> None:
+    body = "local m = Matrix(2, 2, {1, 2, 3, 4}) print((m * Vector({1, 1})):data()[2])"
+    assert in_init(tmp_path, body)[0] in ("7", "7.0")

@@ -131,7 +131,7 @@ def test_what_is_no_handle_is_reported_with_function_argument_and_line(
     [
         ("sysCall_actuaton", "sysCall_actuaton is never called; did you mean sysCall_actuation?"),
         ("sysCall_clenup", "sysCall_clenup is never called; did you mean sysCall_cleanup?"),
-        ("sysCall_trigger", "sysCall_trigger is never called; use sysCall_sensing instead"),
+        ("sysCall_triger", "sysCall_triger is never called; did you mean sysCall_trigger?"),
         ("sysCall_mesage", "sysCall_mesage is never called; the callbacks are sysCall_init, sysCall_thread,"),
     ],
 )

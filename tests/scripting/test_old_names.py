@@ -32,7 +32,7 @@ def test_the_page_is_that_of_the_table() -> None:
         ("simGetObjectHandle", ("sim", "getObjectHandle")),
         ("sim_handle_self", ("sim", "handle_self")),
         ("simGetIntegerSignal", ("sim", "getInt32Signal")),
-        ("simGetObjectIntParameter", ("sim", "getObjectInt32Param")),
+        ("simGetObjectIntParameter", ("sim", "getObjectInt32Parameter")),
         ("simRMLMoveToPosition", ("sim", "rmlMoveToPosition")),
         ("simExtRosInterface_publish", ("simROS", "publish")),
         ("simExtCustomUI_create", ("simUI", "create")),
@@ -127,3 +127,16 @@ def test_old_functions_keep_their_arguments_and_results(tmp_path: Path) -> None:
         "true\ttrue",
         "-1.0\t-2.0\t-3.0",
     ]
+
+
+def test_old_getters_of_parameters_have_two_results(tmp_path: Path) -> None:
+    code = """
+        function sysCall_init()
+          local ball = sim.getObject('.')
+          local result, mass = sim.getObjectFloatParameter(ball, sim.shapefloatparam_mass)
+          local found, static = sim.getObjectInt32Parameter(ball, sim.shapeintparam_static)
+          print(result, mass, found, static)
+        end
+    """
+    run = run_script(tmp_path, code, "--strict", name="script.lua")
+    assert (run.stdout, run.stderr) == ("1\t0.5\t1\t0\n", "")

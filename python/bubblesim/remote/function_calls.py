@@ -14,9 +14,10 @@ from bubblesim.remote.window import functions as window_functions
 from bubblesim.scripting.api.functions import functions
 from bubblesim.scripting.api.ik.ik_module import SimIk
 from bubblesim.scripting.api.old_names import names_to
+from bubblesim.scripting.api.ompl.ompl_module import SimOmpl
 from bubblesim.scripting.api.ui.ui_module import SimUi
 
-MODULES_OF_CLIENTS: dict[str, type] = {"sim": RemoteSim, "simUI": SimUi, "simIK": SimIk}
+MODULES_OF_CLIENTS: dict[str, type] = {"sim": RemoteSim, "simUI": SimUi, "simIK": SimIk, "simOMPL": SimOmpl}
 
 
 def carry_out(request: protocol.Request, sim: RemoteSim, client: RemoteClient) -> Any:
@@ -56,15 +57,19 @@ def info(module: str = "sim") -> dict[str, dict[str, Any]]:
     old = names_to(module, lambda _, name: name in names)
     return {
         **{name: {"func": {}} for name in (*names, *old)},
-        **{name: {"const": value} for name, value in _constants(type_of_module)},
+        **dict(_constants(type_of_module)),
     }
 
 
-def _constants(module: type) -> Iterator[tuple[str, int]]:
+def _constants(module: type) -> Iterator[tuple[str, dict[str, Any]]]:
     for name in dir(module):
         value = getattr(module, name)
-        if not name.startswith("_") and isinstance(value, int):
-            yield name, value
+        if name.startswith("_"):
+            continue
+        if isinstance(value, int):
+            yield name, {"const": value}
+        elif isinstance(value, dict):  # constants in a group
+            yield name, {each: {"const": number} for each, number in value.items()}
 
 
 def _argument(client: RemoteClient, value: Any, depth: int = 0) -> Any:

@@ -15,6 +15,7 @@ from bubblesim.remote.remote_client import RemoteCallback, RemoteClient
 from bubblesim.scripting.api.functions import variant_of_module
 from bubblesim.scripting.api.ik.ik_module import SimIk
 from bubblesim.scripting.api.kinds import Bytes
+from bubblesim.scripting.api.ompl.ompl_module import SimOmpl
 from bubblesim.scripting.api.sim.scene_files import stem
 from bubblesim.scripting.api.sim.sim_module import SimApi
 from bubblesim.scripting.api.ui.ui_module import SimUi
@@ -38,10 +39,11 @@ class RemoteSim(SimApi):
         self._other_modules: dict[str, Any] = {}
 
     def other_module(self, name: str) -> Any:
-        """Return the client's simUI or simIK."""
+        """Return the client's simUI, simIK or simOMPL."""
         made = self._other_modules
         if name not in made:
-            made[name] = SimUi(self._caller) if name == "simUI" else SimIk(self._runner, self._caller)
+            of_runner = {"simIK": SimIk, "simOMPL": SimOmpl}.get(name)
+            made[name] = SimUi(self._caller) if of_runner is None else of_runner(self._runner, self._caller)
         return made[name]
 
     def setStepping(self, enable: bool) -> int:

@@ -34,11 +34,14 @@ class Dummies:
         self.changed: Callable[[], None] = lambda: None
         """Called after a dummy was created or removed."""
 
-    def create(self, world: Any, name: str, size: float, *, temporary: bool) -> Dummy:
-        """Add a dummy at the origin of the world."""
+    def create(self, world: Any, name: str, size: float, *, temporary: bool, joint: str = "") -> Dummy:
+        """Add a dummy at the origin of the world.
+
+        :param joint: the type of a joint without physics, to add instead: revolute, prismatic or ball.
+        """
         if len(self.by_handle) >= _MOST:
             raise ValueError(f"a scene has at most {_MOST} dummies: remove some")
-        handle = int(world.add_dummy(name))
+        handle = int(world.add_joint(name, joint) if joint else world.add_dummy(name))
         dummy = self.by_handle[handle] = Dummy(handle, size, temporary)
         self.changed()
         return dummy

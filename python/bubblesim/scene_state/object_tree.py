@@ -94,7 +94,7 @@ class ObjectTree:
             self._frames.set_pose(handle, pose)
         else:
             self._frames.set_pose_in(handle, pose, frame)
-        self._poses_changed(handle)
+        self.note_poses(handle)
 
     def set_parent(self, handle: int, parent: int, *, in_place: bool) -> None:
         """Attach an object to another one or to the world (-1); raise ValueError if physics holds it elsewhere."""
@@ -108,7 +108,7 @@ class ObjectTree:
         if not in_place:
             self.set_pose(handle, in_parent, parent)
         elif not self.has_body(handle):
-            self._poses_changed(handle)
+            self.note_poses(handle)
 
     def set_name(self, handle: int, name: str) -> None:
         """Name an object."""
@@ -142,7 +142,7 @@ class ObjectTree:
             path = self.short_path(self._world.model_base_of(handle))
             raise ValueError(f"{self.path(handle)} is a part of {path} and stays there: attach the whole model")
 
-    def _poses_changed(self, handle: int) -> None:
+    def note_poses(self, handle: int) -> None:
         """Keep the new poses of an object of the scene, and of what moved along, where they are held or stay."""
         edits = self._edits
         if not edits.holds and not edits.stopped():

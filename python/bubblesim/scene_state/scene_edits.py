@@ -37,6 +37,8 @@ class SceneEdits:
     """Poses in the world that were set while the simulation was stopped, in the order of their setting."""
     shapes: dict[int, PrimitiveShape] = field(default_factory=dict)
     """Created shapes, by the handle of their model."""
+    sensors: dict[int, int] = field(default_factory=dict)
+    """Created sensors, by the handle of their link, which is the object that callers know."""
     sources: dict[int, str] = field(default_factory=dict)
     """SDFormat strings of models that callers have added."""
     originals: dict[int, str] = field(default_factory=dict)
@@ -45,6 +47,8 @@ class SceneEdits:
     numbers: SetNumbers = field(default_factory=SetNumbers)
     held_joints: dict[int, tuple[Any, float]] = field(default_factory=dict)
     """Joints in kinematic mode, with the motor mode and largest force that they had; for a run."""
+    callback_joints: dict[int, bool] = field(default_factory=dict)
+    """Joints that a script has given to the callback sysCall_joint, or taken from it; for a run."""
     replaced: dict[int, int] = field(default_factory=dict)
     """Present handles of created shapes that were built anew, by the handle that callers know."""
     stopped: Callable[[], bool] = lambda: False
@@ -82,6 +86,7 @@ class SceneEdits:
     def end_run(self, world: Any) -> None:
         """Take back the changes of the run that has ended."""
         self.held_joints.clear()
+        self.callback_joints.clear()
         if self._before is None:
             return
         names, parents, self.static, self.holds = self._before
@@ -106,6 +111,7 @@ class SceneEdits:
                 self.holds,
                 self.placed,
                 self.shapes,
+                self.sensors,
                 self.sources,
             ]
             tables += [self.originals, self.colours.links, self.numbers.links]
@@ -113,6 +119,7 @@ class SceneEdits:
             for table in tables:
                 table.pop(handle, None)
             self.static.discard(handle)
+            self.callback_joints.pop(handle, None)
             self.moved.discard(handle)
         for attached in [handle for handle, parent in self.parents.items() if parent in gone]:
             del self.parents[attached], self._first_parents[attached]

@@ -41,6 +41,9 @@ class Scripts(Protocol):
     def restart_script(self, handle: int) -> bool:
         """Load an object's script again from its file; return whether it runs."""
 
+    def add_text(self, handle: int, text: str, suffix: str) -> None:
+        """Attach a script, 'py' or 'lua', to an object; raise ValueError if it has one."""
+
     def problems(self) -> dict[str, Any]:
         """Return the warnings of the scene's files and the problems of scripts, with their revision."""
 

@@ -4,6 +4,8 @@
 
 #include <memory>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -114,12 +116,72 @@ void bind_planar_drive(py::module_& module) {
       .def("remove", &Drive::remove, "Remove it from the world.");
 }
 
+/// Calls a Python function before each substep. Made, called and destroyed in threads that may not hold the GIL.
+class SubstepCall : public Device {
+ public:
+  explicit SubstepCall(py::function function)
+      : function_(new py::function(std::move(function)), [](const py::function* held) {
+          const py::gil_scoped_acquire gil;
+          delete held;
+        }) {}
+
+  void update(World&, double time, double duration) override {
+    const py::gil_scoped_acquire gil;
+    try {
+      (*function_)(time, duration);
+    } catch (const py::error_already_set& error) {  // which must not leave the GIL
+      throw std::runtime_error(std::string("a function that is called before substeps failed: ") + error.what());
+    }
+  }
+
+ private:
+  std::shared_ptr<const py::function> function_;
+};
+
+ContactFilter contact_filter(py::function function) {
+  const std::shared_ptr<const py::function> held(new py::function(std::move(function)), [](const py::function* last) {
+    const py::gil_scoped_acquire gil;
+    delete last;
+  });
+  return [held](ObjectId first, ObjectId second) {
+    const py::gil_scoped_acquire gil;
+    try {
+      return (*held)(first, second).cast<bool>();
+    } catch (py::error_already_set& error) {
+      error.discard_as_unraisable("a contact filter");
+    } catch (const py::cast_error&) {  // no bool
+    }
+    return true;
+  };
+}
+
+void bind_substep_calls(py::module_& module) {
+  using Call = Attached<SubstepCall>;
+  py::class_<Call> call(module, "SubstepCall",
+                        "A function that is called with the time, s, and the duration of each physics substep before\n"
+                        "it. It slows the simulation: devices in C++ do not.");
+  call.def(py::init([](World& world, py::function function) {
+             return attach(world, std::make_shared<SubstepCall>(std::move(function)), kNoObject, 0);
+           }),
+           py::arg("world"), py::arg("function"), py::keep_alive<1, 2>());
+  Guarded(call).def("remove", &Call::remove, "Remove it from the world.");
+  Guarded(module).def(
+      "set_contact_filter",
+      [](World& world, const std::optional<py::function>& function) {
+        world.devices().set_contact_filter(function ? contact_filter(*function) : ContactFilter());
+      },
+      py::arg("world"), py::arg("function"),
+      "Let a function of two links decide, in each substep in which they touch, whether they resist each other; a\n"
+      "static link comes second. None removes it.");
+}
+
 }  // namespace
 
 void bind_devices(py::module_& module) {
   bind_timed_efforts(module);
   bind_joint_ramps(module);
   bind_planar_drive(module);
+  bind_substep_calls(module);
 }
 
 }  // namespace bubblesim::bindings

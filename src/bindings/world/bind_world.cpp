@@ -158,10 +158,22 @@ void bind_world(py::module_& module) {
           "Return the link that carries a frame, -1 for the world.")
       .def(
           "frame_kind", [](const World& w, ObjectId id) { return std::string(frame_kind_name(w.frames().kind(id))); },
-          py::arg("frame"), "Return 'dummy', 'shape', 'camera', 'light', 'graph' or 'script'.")
+          py::arg("frame"), "Return 'dummy', 'shape', 'camera', 'light', 'graph', 'script' or 'joint'.")
       .def(
           "add_dummy", [](World& w, const std::string& name) { return w.frames().add_dummy(name); }, py::arg("name"),
           "Add a dummy at the origin; return its handle.")
+      .def(
+          "add_joint",
+          [](World& w, const std::string& name, const std::string& type) { return w.frames().add_joint(name, type); },
+          py::arg("name"), py::arg("type"),
+          "Add a joint without physics at the origin, which moves what is below it in the tree; return its handle.")
+      .def(
+          "set_joint_limits",
+          [](World& w, ObjectId joint, double lower, double upper) {
+            w.frames().set_joint_limits(joint, lower, upper);
+          },
+          py::arg("joint"), py::arg("lower"), py::arg("upper"),
+          "Set the limits of a joint that was added; infinite for none.")
       .def(
           "remove_dummy", [](World& w, ObjectId id) { w.frames().remove_dummy(id); }, py::arg("dummy"),
           "Remove a dummy that was added.")
@@ -352,6 +364,20 @@ void bind_world(py::module_& module) {
           "Return the parameters that the scene's file gives to the script of an object: (name, unit, value), as text.")
       .def("file_data", &file_data, py::arg("object"),
            "Return the bytes that the scene's file attaches to an object, by name.")
+      .def(
+          "is_driven_by_callback",
+          [](const World& w, ObjectId joint) {
+            const std::vector<AxisDescription>& axes = w.joints().description(joint).axes;
+            return !axes.empty() && axes.front().by_callback;
+          },
+          py::arg("joint"), "Return whether the scene's file lets sysCall_joint of a script drive a joint.")
+      .def(
+          "max_velocity",
+          [](const World& w, ObjectId joint) {
+            const std::vector<AxisDescription>& axes = w.joints().description(joint).axes;
+            return axes.empty() ? 0.0 : axes.front().max_velocity;
+          },
+          py::arg("joint"), "Return the limit of a motor's velocity in the scene's file; infinite without a limit.")
       .def("joint_type", [](const World& w, ObjectId joint) { return w.joints().description(joint).type; })
       .def(
           "joint_limits",

@@ -151,6 +151,7 @@ class DescriptionHash {
     (*this)(a.direction, a.lower, a.upper, a.max_force, a.max_velocity, a.friction, a.damping, a.spring_stiffness,
             a.spring_reference, a.motor, a.mimic);
     if (a.target != 0) (*this)(a.target);
+    if (a.by_callback) (*this)(a.by_callback);
   }
   void add(const JointDescription& j) {
     (*this)(j.name, j.type, j.parent, j.child, j.pose, j.axes, j.sensors, j.screw_lead, j.gearbox_ratio,

@@ -8,6 +8,7 @@ import difflib
 from bubblesim.messages.names import did_you_mean
 
 PAUSE_HOOKS = ("sysCall_suspend", "sysCall_suspended", "sysCall_resume")
+SUBSTEP_HOOKS = ("sysCall_dyn", "sysCall_joint", "sysCall_contact")
 HOOKS = (
     "sysCall_init",
     "sysCall_thread",
@@ -16,22 +17,20 @@ HOOKS = (
     "sysCall_reset",
     "sysCall_cleanup",
     "sysCall_vision",
+    "sysCall_trigger",
+    "sysCall_beforeSimulation",
+    "sysCall_afterSimulation",
+    *SUBSTEP_HOOKS,
     *PAUSE_HOOKS,
 )
+OLD_NAMES = {
+    "sysCall_thread": "sysCall_threadmain",
+    "sysCall_dyn": "sysCall_dynCallback",
+    "sysCall_joint": "sysCall_jointCallback",
+    "sysCall_contact": "sysCall_contactCallback",
+}
 
 _PREFIX = "sysCall_"
-# CoppeliaSim's callbacks for other kinds of scripts and for unsupported events, with the callback to use instead.
-IN_PLACE_OF = {
-    "sysCall_afterSimulation": "sysCall_cleanup",
-    "sysCall_beforeSimulation": "sysCall_init",
-    "sysCall_contact": "sysCall_sensing",
-    "sysCall_contactCallback": "sysCall_sensing",
-    "sysCall_dyn": "sysCall_actuation",
-    "sysCall_dynCallback": "sysCall_actuation",
-    "sysCall_joint": "sysCall_actuation",
-    "sysCall_jointCallback": "sysCall_actuation",
-    "sysCall_trigger": "sysCall_sensing",
-}
 
 
 def looks_like_callback(name: str) -> bool:
@@ -41,8 +40,6 @@ def looks_like_callback(name: str) -> bool:
 
 def never_called(name: str) -> str:
     """Return the warning about a function that is named like a callback but is not one."""
-    if name in IN_PLACE_OF:
-        return f"{name} is never called; use {IN_PLACE_OF[name]} instead"
     bare = [hook.removeprefix(_PREFIX) for hook in HOOKS]
     near = difflib.get_close_matches(name.removeprefix(_PREFIX), bare, n=1)
     hint = did_you_mean([_PREFIX + each for each in near]) or f"; the callbacks are {', '.join(HOOKS)}"

@@ -16,8 +16,8 @@ from bubblesim.scene_state import log, problems
 from bubblesim.scene_state.problems import Problem
 from bubblesim.scripting.allowed_programs import is_allowed
 from bubblesim.scripting.caller import Hook
-from bubblesim.scripting.host import interruption, process_calls
-from bubblesim.scripting.host.callback_names import HOOKS, IN_PLACE_OF, PAUSE_HOOKS, looks_like_callback, never_called
+from bubblesim.scripting.host import interruption, process_calls, sensor_callbacks
+from bubblesim.scripting.host.callback_names import HOOKS, OLD_NAMES, PAUSE_HOOKS, looks_like_callback, never_called
 from bubblesim.scripting.host.file_stamps import FileStamps
 from bubblesim.scripting.host.protocols import Host
 from bubblesim.scripting.host.started_programs import Program, end_programs
@@ -27,12 +27,6 @@ from bubblesim.scripting.language.script_output import Source
 from bubblesim.scripting.language.source import ScriptSourceError, read_text
 from bubblesim.scripting.threads import script_sockets
 from bubblesim.scripting.threads.script_thread import AnyThread
-
-
-def sensor_kind_of(simulation: Any, handle: int) -> str:
-    """Return the kind of a sensor; an empty string for another object."""
-    is_sensor = str(simulation.world.kind(handle)) == "sensor"
-    return str(_core.sensor_kind(simulation, handle)) if is_sensor else ""
 
 
 class ChildScript:
@@ -88,20 +82,17 @@ class ChildScript:
         if not self.run("loading", self._code.run):
             return
         self._hooks = {name: self._code.function(name) for name in HOOKS}
-        self._hooks["sysCall_thread"] = self._hooks["sysCall_thread"] or self._code.function("sysCall_threadmain")
+        for name, old in OLD_NAMES.items():
+            self._hooks[name] = self._hooks[name] or self._code.function(old)
         self.follows_pauses = any(self._hooks[name] is not None for name in PAUSE_HOOKS)
         self._warn_of_unknown_callbacks()
-        known = ("sysCall_init", "sysCall_thread", "sysCall_vision")
-        if not any(self._hooks[name] for name in known) and not self._has_events():
+        optional = ("sysCall_actuation", "sysCall_sensing", "sysCall_reset", "sysCall_cleanup", *PAUSE_HOOKS)
+        if not any(self._hooks[name] for name in HOOKS if name not in optional):
             why = "it defines neither sysCall_init nor sysCall_thread; a script needs one of these functions"
             self._fail(
                 f"error: child script of {self.object_path} is disabled: {self.file}: {why}",
                 self._problem("error", why),
             )
-
-    def _has_events(self) -> bool:
-        """Return whether the script has callbacks for events that are never reported here, such as sysCall_trigger."""
-        return any(name in IN_PLACE_OF for name in self._code.functions_by_name())
 
     def _read(self, file: Path) -> str:
         self._stamps.note(file)
@@ -109,7 +100,7 @@ class ChildScript:
 
     def _warn_of_unknown_callbacks(self) -> None:
         for name, place in sorted(self._code.functions_by_name().items()):
-            if looks_like_callback(name) and name not in (*HOOKS, "sysCall_threadmain"):
+            if looks_like_callback(name) and name not in (*HOOKS, *OLD_NAMES.values()):
                 self._log(
                     f"warning: child script of {self.object_path}: {place or self.file}: {never_called(name)}",
                     log.SCRIPT_WARNING,
@@ -135,15 +126,31 @@ class ChildScript:
     def actuate(self) -> None:
         """Run sysCall_actuation, and before the first time sysCall_init."""
         if not self._started:
-            self._started = True
-            self._call("sysCall_init")
-            self._start_thread()
+            self.begin()
         if self.in_each_step:
             for hook in list(self.in_each_step.values()):
                 hook()
         if self._thread and self.alive and not interruption.requested:
             self.run("sysCall_thread", self._thread.run_turn)
         self._call("sysCall_actuation")
+
+    def begin(self) -> None:
+        """Run sysCall_init, and begin the thread."""
+        self._started = True
+        self._call("sysCall_init")
+        self._start_thread()
+
+    def has_hook(self, name: str) -> bool:
+        """Return whether it defines a callback and may be called."""
+        return self.alive and self._hooks[name] is not None
+
+    def answer(self, hook: str, data: dict[str, Any]) -> Any:
+        """Run a callback with data and return its result; None without one, and if it fails."""
+        function = self._hooks[hook]
+        results: list[Any] = []
+        if function is not None and self._started and self.alive and not interruption.requested:
+            self.run(hook, lambda: results.append(function(data)))
+        return results[0] if results else None
 
     def _start_thread(self) -> None:
         body = self._hooks["sysCall_thread"]
@@ -158,37 +165,18 @@ class ChildScript:
             self._log(f"warning: the thread of the child script of {self.object_path} does not end", log.SCRIPT_WARNING)
 
     def sense(self) -> None:
-        """Run sysCall_vision of a camera's script, and sysCall_sensing."""
-        if self._hooks["sysCall_vision"] is not None and self.alive and not interruption.requested:
-            self._process_image()
+        """Run sysCall_vision and sysCall_trigger of a sensor's script, and sysCall_sensing."""
+        simulation, handle = self.host.simulation, self.object_handle
+        if self._hooks["sysCall_vision"] is not None and (data := sensor_callbacks.image_data(simulation, handle)):
+            sensor_callbacks.keep_vision_result(self.shared, handle, self.answer("sysCall_vision", data))
+        if self._hooks["sysCall_trigger"] is not None:
+            event = sensor_callbacks.trigger_data(simulation, handle, self.shared)
+            if event is not None:
+                sensor_callbacks.keep_trigger_result(self.shared, handle, self.answer("sysCall_trigger", event))
         self._call("sysCall_sensing")
 
-    def _process_image(self) -> None:
-        """Let the script process the image of its camera; keep what readVisionSensor returns."""
-        simulation, handle, process = self.host.simulation, self.object_handle, self._hooks["sysCall_vision"]
-        if process is None or sensor_kind_of(simulation, handle) != "camera":
-            return
-        image = _core.read_camera(simulation, handle)
-        columns, rows, angle = _core.camera_optics(simulation, handle)
-        about = {
-            "handle": handle,
-            "resolution": [columns, rows],
-            "clippingPlanes": [image.near, image.far],
-            "viewAngle": angle,
-            "orthoSize": 0.0,
-            "perspectiveOperation": True,
-        }
-        results: list[Any] = []
-        self.run("sysCall_vision", lambda: results.append(process(about)))
-        if results and isinstance(results[0], dict):
-            packets = results[0].get("packedPackets")
-            self.shared.vision_results[handle] = (
-                bool(results[0].get("trigger")),
-                list(packets) if isinstance(packets, list | tuple) else [],
-            )
-
     def call_hook(self, hook: str) -> None:
-        """Run one of PAUSE_HOOKS or sysCall_reset."""
+        """Run a callback without data of a script that has begun."""
         if self._started:
             self._call(hook)
 

@@ -9,6 +9,7 @@ import sys
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from bubblesim import _core
@@ -19,6 +20,7 @@ from bubblesim.scene_state.log import Log
 from bubblesim.scene_state.problems import Problem
 from bubblesim.scene_state.shared_data import SharedData
 from bubblesim.scripting.api.ik.ik_module import SimIk
+from bubblesim.scripting.api.ompl.ompl_module import SimOmpl
 from bubblesim.scripting.api.ros.no_ros import NoRos
 from bubblesim.scripting.api.ros.ros_modules import SimRos, SimRos2
 from bubblesim.scripting.api.sim.remote_api_module import SimRemoteApi
@@ -31,6 +33,7 @@ from bubblesim.scripting.host.child_script import ChildScript
 from bubblesim.scripting.host.known_problems import KnownProblems
 from bubblesim.scripting.host.script_descriptions import described
 from bubblesim.scripting.host.started_programs import end_programs
+from bubblesim.scripting.host.substep_callbacks import SubstepCallbacks
 from bubblesim.scripting.host.watchdog import Watchdog
 from bubblesim.scripting.language import script_output
 from bubblesim.scripting.language.source import read_text
@@ -77,6 +80,10 @@ class ScriptHost:
         self.stops_elsewhere: list[Callable[[], bool]] = []
         """Return whether a stop waits that neither the bridge nor the runner knows; called in the watchdog's thread."""
         self.shared = SharedData(has_ros=bridge is not None, scripts=self, log=Log(lambda: float(self.simulation.time)))
+        self._substeps = SubstepCallbacks(runner, self.shared.edits)
+        self._substeps_stale = False  # scripts were loaded, removed or disabled
+        self._texts: TemporaryDirectory[str] | None = None  # with the files of added scripts
+        self._begun = False  # sysCall_beforeSimulation was called in this run
         self.shared.edits.stopped = lambda: bool(runner.state == _core.RunState.STOPPED)
         self._problems = KnownProblems(self.simulation.scene.warnings)
         self._placed = [(path, self.simulation.object(path).handle, Path(file)) for path, file in scripts]
@@ -94,6 +101,9 @@ class ScriptHost:
         """Load the scripts from their files; for the simulation's thread."""
         self._watchdog = Watchdog(self)
         try:
+            self._begun = False
+            contains = self.simulation.world.contains  # objects of added scripts may have ended with the last run
+            self._placed = [script for script in self._placed if contains(script[1])]
             self.shared.graphs.begin_run()
             for path, handle, file in self._placed:
                 self.scripts += [self._load(path, handle, file)]
@@ -111,8 +121,9 @@ class ScriptHost:
         self.count_disabled()
 
     def count_disabled(self) -> None:
-        """Update ``disabled``, which the node reads in each step."""
+        """Update ``disabled``, which the node reads in each step, after a script was loaded, removed or disabled."""
         self.disabled = sum(script.failed for script in self.scripts)
+        self._substeps_stale = True
 
     def stop(self) -> None:
         """End and remove the scripts, with all remaining data: signals, open files and sockets."""
@@ -123,13 +134,25 @@ class ScriptHost:
 
     def add_script(self, path: str, file: Path) -> None:
         """Register the script of an added model, and load it unless the simulation is stopped."""
-        handle = self.simulation.object(path).handle
-        self._placed.append((path, handle, Path(file)))
+        self._place(path, self.simulation.object(path).handle, Path(file))
+
+    def _place(self, path: str, handle: int, file: Path) -> None:
+        self._placed.append((path, handle, file))
         self._placed.sort(key=lambda script: _turn(script[0], script[1]))
         if self.runner.state == _core.RunState.STOPPED:
             return
-        loaded = [*self.scripts, self._load(path, handle, Path(file))]
+        loaded = [*self.scripts, self._load(path, handle, file)]
         self._keep(sorted(loaded, key=lambda script: _turn(script.object_path, script.object_handle)))
+
+    def add_text(self, handle: int, text: str, suffix: str) -> None:
+        """Attach a script to an object, from its text in a file of its own; raise ValueError if it has one."""
+        if self.has_script(handle):
+            raise ValueError(f"{self.simulation.world.short_path(handle)} has a script")
+        if self._texts is None:
+            self._texts = TemporaryDirectory(prefix="bubblesim_scripts_")
+        file = Path(self._texts.name) / f"script_{handle}.{suffix}"
+        file.write_text(text, encoding="utf-8")
+        self._place(self.simulation.world.path(handle), handle, file)
 
     def model_removing(self, model: int) -> None:
         """Call sysCall_cleanup of the scripts of a model that is about to be removed, and remove them."""
@@ -212,6 +235,7 @@ class ScriptHost:
             "sim": SimApi(self.runner, script),
             "simUI": SimUi(script),
             "simIK": SimIk(self.runner, script),
+            "simOMPL": SimOmpl(self.runner, script),
             "simVision": SimVision(self.runner, script),
             "simRemoteApi": SimRemoteApi(script),
         }
@@ -240,10 +264,23 @@ class ScriptHost:
         """Call sysCall_actuation of all scripts."""
         if self._next_check < math.inf:
             self._reload_edited()
+        if not self._begun:
+            self._begin()
         for script in self.scripts:
             script.actuate()
+        if self._substeps_stale:
+            self._substeps_stale = False
+            self._substeps.prepare(self.scripts)
+        self._substeps.begin_step()
         if self.shared.edits.holds:
             self.shared.edits.apply(self.simulation.world, self.simulation.time_step)
+
+    def _begin(self) -> None:
+        """Call sysCall_init of scripts with sysCall_beforeSimulation, and then that, before all others."""
+        self._begun = True
+        for script in [script for script in self.scripts if script.has_hook("sysCall_beforeSimulation")]:
+            script.begin()
+            script.call_hook("sysCall_beforeSimulation")
 
     def _reload_edited(self) -> None:
         now = time.monotonic()
@@ -265,6 +302,7 @@ class ScriptHost:
 
     def sense(self) -> None:
         """Call sysCall_sensing of all scripts, and then record graphs."""
+        self._substeps.end_step()
         if self.shared.edits.holds:
             self.shared.edits.apply(self.simulation.world)
         for script in self.scripts:
@@ -302,6 +340,7 @@ class ScriptHost:
     def finish(self) -> None:
         """Call sysCall_cleanup of all scripts and release their resources."""
         try:
+            self._substeps.prepare([])
             _finish(self.scripts)
         finally:
             if self._watchdog is not None:
@@ -310,7 +349,13 @@ class ScriptHost:
 
 
 def _finish(scripts: list[ChildScript]) -> None:
+    """End scripts; those with sysCall_afterSimulation after the others."""
+    last = [script for script in scripts if script.has_hook("sysCall_afterSimulation")]
     for script in scripts:
+        if script not in last:
+            script.clean_up()
+    for script in last:
+        script.call_hook("sysCall_afterSimulation")
         script.clean_up()
     end_programs([program for script in scripts for program in script.programs])  # together, because each may take long
     for script in scripts:

@@ -18,6 +18,7 @@ from bubblesim.scripting.api.missing_names import explain
 from bubblesim.scripting.api.old_names import note_old_name, of_v_rep, present_name
 from bubblesim.scripting.api.ros import no_ros
 from bubblesim.scripting.api.sim.constants import SimConstants
+from bubblesim.scripting.api.sim.scene_objects import member
 from bubblesim.scripting.api.waiting_functions import Waiting
 from bubblesim.scripting.language.lua_values import LuaFunction, LuaScriptError, LuaValues
 from bubblesim.scripting.language.script_output import Source, print_line
@@ -27,6 +28,7 @@ from bubblesim.scripting.threads.lua_thread import LuaThread
 _SANDBOX = Path(__file__).with_name("sandbox.lua")
 _SHOWN_VALUES = Path(__file__).with_name("shown_values.lua")
 _LIBRARIES = Path(__file__).with_name("libraries.lua")
+_OBJECTS = Path(__file__).with_name("objects.lua")
 _WAITING = Path(__file__).with_name("waiting.lua")
 _ADDED = {"matrix": Path(__file__).with_name("matrix.lua"), "utils": Path(__file__).with_name("utils.lua")}
 _VARIABLES = ("HOME", "LANG", "LANGUAGE", "PWD", "ROS_DISTRO", "TMPDIR", "TZ", "USER")
@@ -170,6 +172,9 @@ class LuaCode:
         host[b"read_file"] = callable_from_lua(self._read_file)
         host[b"getenv"] = callable_from_lua(lambda name: os.environ.get(name) if name in _VARIABLES else None)
         host[b"libraries"] = self._function_of(_LIBRARIES)
+        host[b"objects"] = self._function_of(_OBJECTS)
+        host[b"own"] = caller_of(modules["sim"]).object_handle
+        host[b"member"] = callable_from_lua(lambda handle, name: member(modules["sim"], handle, name))
         host[b"wait"] = self._function_of(_WAITING)
         host[b"added"] = self._runtime.table_from(
             {name.encode(): self._function_of(path) for name, path in _ADDED.items()}
@@ -253,7 +258,7 @@ class LuaCode:
         constants = {
             name: getattr(module, name)
             for name in dir(module)
-            if not name.startswith("_") and isinstance(getattr(module, name), int | float | str)
+            if not name.startswith("_") and isinstance(getattr(module, name), int | float | str | dict)
         }
         table = self._runtime.table()
         table[b"constants"] = self._values.to_lua(constants)

@@ -128,10 +128,12 @@ class LuaValues:
 
         return call
 
-    def _table_to_python(self, table: Any, depth: int) -> list[Any] | dict[Any, Any]:
+    def _table_to_python(self, table: Any, depth: int) -> list[Any] | dict[Any, Any] | int:
         if depth == _MAX_DEPTH:
             raise ValueError("a table contains itself, or more than 100 nested tables")
         entries = {key: self.to_python(value, depth + 1) for key, value in table.items()}
+        if len(entries) == 1 and b"_object" in entries:  # of objects.lua
+            return int(entries[b"_object"])
         count = len(table)
         if count and count == len(entries) and all(number in entries for number in range(1, count + 1)):
             return [entries[number] for number in range(1, count + 1)]

@@ -35,7 +35,8 @@ class PythonCode:
         """Compile the ``text`` of ``file`` without running it.
 
         The first line may be ``#python``; the following lines may be ``include NAME`` (no quotes, no extension), which
-        is searched in the script's folder and then in ``search_paths``.
+        is searched in the script's folder and then in ``search_paths``; includeRel and includeAbs, old names, are the
+        same.
 
         :param modules: the globals ``sim``, ``simROS``, ``simROS2`` of the script.
         :param name: name of the script's module.
@@ -120,9 +121,10 @@ class PythonCode:
         parts: list[CodeType] = []
         for number, line in enumerate(lines):
             words = line.split()
-            if len(words) == 2 and words[0] == "include":
+            if len(words) == 2 and words[0] in ("include", "includeRel", "includeAbs"):
+                name = words[1] if words[1].endswith(".py") else f"{words[1]}.py"
                 try:
-                    included = find_file(f"{words[1]}.py", folders)
+                    included = find_file(name, folders)
                 except ScriptSourceError as error:
                     raise ScriptSourceError(f"{file}:{number + 1}: {error}") from None
                 parts += self._compile(included, self._read(included), folders, (*including, file))

@@ -14,6 +14,7 @@
 --   host.wait         the function of waiting.lua; host.waiting and host.go_on are for it
 --   host.added        by name, functions that make a module from the globals
 --   host.read_file, host.getenv  see libraries.lua
+--   host.objects      the function of objects.lua; host.member and host.own are for it
 --   host.libraries    the function of libraries.lua
 --   host.whole        returns a string with the whole paths of the script's files
 --   host.shown        the function returned by shown_values.lua
@@ -233,9 +234,13 @@ for name, module in next, host.modules do
   globals[name] = members
 end
 
--- Functions of V-REP 3 are globals.
+-- Functions of V-REP 3 are globals, and so are the matrices of the module `matrix`.
 setmetatable(globals, {
   __index = function(_, wanted)
+    if wanted == "Matrix" or wanted == "Vector" then
+      globals.require("matrix")
+      return rawget(globals, wanted)
+    end
     if type(wanted) ~= "string" or not match(wanted, "^sim[_A-Zr]") then return nil end
     local module, present = v_rep_name(wanted)
     if not module then
@@ -252,6 +257,8 @@ local sim = modules.sim
 host.wait(sim, host.waiting, checked(host.go_on), function() return running() == thread end, function(enabled)
   is_stepping = enabled
 end, fail)
+
+host.objects(sim, checked(host.member), host.own, fail)
 
 local inverse = sim.invertMatrix
 function sim.invertMatrix(matrix)  -- the argument changes, as in the original
@@ -283,6 +290,15 @@ function globals.require(name)
   end
   return required[name]
 end
+
+-- Old programs run other files beside their scene this way.
+local function include(name)
+  local text, chunk_name = find_source((match(tostring(name), "([^/\\]+)$"):gsub("%.lua$", "")))
+  local chunk, problem = load(text, chunk_name, "t", globals)
+  if not chunk then error(problem, 0) end
+  return chunk()
+end
+sim.includeRel, sim.includeAbs = include, include
 
 function globals.print(...)
   local strings = {}

@@ -35,9 +35,6 @@ void add_joints(const SceneFile& file, const Structure& structure, LeftOut& left
     if (simulated.count(static_cast<int>(i)) > 0 && is_left_over(*joint)) {
       left_out.add("joint with a target velocity that is left over from a run: it starts at rest", alias);
     }
-    if (simulated.count(static_cast<int>(i)) > 0 && joint->control == JointControl::kCallback) {
-      left_out.add("joint controlled by a callback: it moves freely", alias);
-    }
   }
 }
 

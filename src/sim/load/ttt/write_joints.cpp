@@ -33,6 +33,8 @@ const char* motor_of(const Joint& joint) {
       return "velocity";
     case JointControl::kPosition:
       return "position";
+    case JointControl::kCallback:
+      return "callback";
     default:
       return nullptr;
   }
@@ -46,7 +48,8 @@ void write_limits(pugi::xml_node axis, const Joint& joint, double zero) {
   }
   if (motor_of(joint) == nullptr) return;
   put(limit, "effort", joint.max_force);
-  if (joint.control == JointControl::kPosition && joint.max_velocity > 0) put(limit, "velocity", joint.max_velocity);
+  const bool keeps_pace = joint.control == JointControl::kPosition || joint.control == JointControl::kCallback;
+  if (keeps_pace && joint.max_velocity > 0) put(limit, "velocity", joint.max_velocity);
 }
 
 /// `zero`: the position of the file's joint that is 0 here.
@@ -72,7 +75,9 @@ void write_axis(pugi::xml_node element, const Joint& joint, double zero, const J
   if (joint.control == JointControl::kVelocity) {
     put(axis, "bubblesim:target", is_left_over(joint) ? 0 : joint.target_velocity);
   }
-  if (joint.control == JointControl::kPosition) put(axis, "bubblesim:target", joint.target_position - zero);
+  if (joint.control == JointControl::kPosition || joint.control == JointControl::kCallback) {
+    put(axis, "bubblesim:target", joint.target_position - zero);
+  }
 }
 
 }  // namespace

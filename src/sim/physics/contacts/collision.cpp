@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "physics/contacts/contact_points.hpp"
 #include "physics/contacts/contact_thinning.hpp"
@@ -107,6 +108,15 @@ void sort(std::vector<FoundPair>& pairs) {
   if (!std::is_sorted(pairs.begin(), pairs.end(), before)) std::sort(pairs.begin(), pairs.end(), before);
 }
 
+/// Drops the pairs that the filter does not let resist. It may move bodies, so it is asked after the search.
+void drop_refused(Contacts& contacts) {
+  const auto is_refused = [&](const FoundPair& pair) {
+    return !contacts.filter(pair.first->link->object, pair.second->link->object);
+  };
+  std::vector<FoundPair>& pairs = contacts.found.pairs;
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_refused), pairs.end());
+}
+
 void touch_spaces(void* data, dGeomID first, dGeomID second) { dSpaceCollide2(first, second, data, touch); }
 
 dGeomID as_geom(dSpaceID space) { return reinterpret_cast<dGeomID>(space); }
@@ -135,6 +145,7 @@ void search_contacts(Substep& substep) {
 
 void order_contacts(Contacts& contacts) {
   sort(contacts.found.pairs);
+  if (contacts.filter) drop_refused(contacts);
   if (contacts.islands.may_be_beyond_limit()) thin_out(contacts.found, contacts.islands);
 }
 

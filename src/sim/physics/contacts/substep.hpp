@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bubblesim/math.hpp"
+#include "bubblesim/world_devices.hpp"
 #include "physics/contacts/contact_memory.hpp"
 #include "physics/contacts/found_contacts.hpp"
 #include "physics/contacts/islands.hpp"
@@ -18,6 +19,7 @@ struct Contacts {
   Islands islands;  // of models, by their index among the moving ones
   ContactMemory memory;
   ContactMemory memory_before;  // working memory
+  ContactFilter filter;         // may be empty
 };
 
 struct Substep {

@@ -47,7 +47,7 @@ Joint::Joint(std::vector<AxisDescription> axes) {
       stopped_.push_back(static_cast<int>(axes_.size()));
     }
     Axis& axis = axes_.emplace_back();
-    if (description.motor == MotorMode::kPosition) axis.target_position = description.target;
+    if (description.motor == MotorMode::kPosition || description.by_callback) axis.target_position = description.target;
     if (description.motor == MotorMode::kVelocity) axis.target_velocity = description.target;
     if (description.motor == MotorMode::kEffort) axis.target_effort = description.target;
     axis.description = std::move(description);

@@ -94,4 +94,9 @@ void WorldDevices::remove(const Device& device) {
   devices.erase(std::remove_if(devices.begin(), devices.end(), is_it), devices.end());
 }
 
+void WorldDevices::set_contact_filter(ContactFilter filter) {
+  check_not_updating(state());
+  state().contacts.filter = std::move(filter);
+}
+
 }  // namespace bubblesim

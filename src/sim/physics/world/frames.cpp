@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tree of a world's objects while it runs, and its frames: objects without physics.
 #include <algorithm>
+#include <array>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +10,7 @@
 #include "bubblesim/error.hpp"
 #include "bubblesim/world_frames.hpp"
 #include "physics/world/state.hpp"
+#include "scene/describe.hpp"
 #include "scene/fnv1a.hpp"
 
 namespace bubblesim {
@@ -100,6 +103,37 @@ ObjectId WorldFrames::add_dummy(std::string name) {
   const ObjectId id = changing_tree(state()).add(ObjectKind::kFrame, std::move(name), kNoObject, kAddedFrame);
   state().frames[id] = {kNoObject, Pose(), FrameKind::kDummy, true};
   return id;
+}
+
+ObjectId WorldFrames::add_joint(std::string name, const std::string& type) {
+  const std::array<const char*, 4> types{"revolute", "continuous", "prismatic", "ball"};
+  if (std::find(types.begin(), types.end(), type) == types.end()) {
+    throw InvalidInput("a joint of the type '" + type + "' cannot be added: revolute, continuous, prismatic or ball");
+  }
+  const ObjectId id = add_dummy(std::move(name));
+  PlacedFrame& frame = state().frames.at(id);
+  frame.kind = FrameKind::kJoint;
+  frame.own = std::make_shared<FrameDescription>();
+  frame.own->joint.emplace().type = type;
+  if (type != "ball") frame.own->joint->axes.emplace_back();
+  frame.joint = frame.own.get();
+  return id;
+}
+
+void WorldFrames::set_joint_limits(ObjectId joint, double lower, double upper) {
+  PlacedFrame* frame = kinematic_joint(state(), joint);
+  if (frame == nullptr || frame->own == nullptr || frame->own->joint->axes.empty()) {
+    throw InvalidInput(state().shown(joint) +
+                       " has the limits of its file: those of joints that were added can be set");
+  }
+  if (!(lower <= upper)) {
+    throw InvalidInput("the limits " + text(lower) + " and " + text(upper) +
+                       " of a joint are not usable: the lower one "
+                       "must not be above the upper one");
+  }
+  AxisDescription& axis = frame->own->joint->axes.front();
+  axis.lower = lower;
+  axis.upper = upper;
 }
 
 void WorldFrames::remove_dummy(ObjectId dummy) {

@@ -56,8 +56,9 @@ struct PlacedFrame {
   ObjectId link = kNoObject;  // that carries it; kNoObject: it stays in the world
   Pose pose;                  // in the frame of that link, or in the world
   FrameKind kind = FrameKind::kDummy;
-  bool is_added = false;                    // by WorldFrames::add_dummy(): it is in no description
+  bool is_added = false;                    // by WorldFrames: it is in no description
   const FrameDescription* joint = nullptr;  // of a joint without physics; otherwise null
+  std::shared_ptr<FrameDescription> own{};  // the same, of one that was added
   double position = 0;                      // of that joint, rad or m
   double velocity = 0;                      // with which it moves, rad/s or m/s
   ObjectId leader = kNoObject;              // the joint that it follows

@@ -73,9 +73,11 @@ void World::build(const Scene& scene, std::uint64_t seed) {
 
 void World::rebuild(const Scene& scene) {
   std::vector<DeviceSlot> devices = std::move(state_->devices);
+  ContactFilter filter = std::move(state_->contacts.filter);
   const std::uint64_t revision = state_->revision + 1;
   build(scene, state_->seed);
   state_->devices = std::move(devices);
+  state_->contacts.filter = std::move(filter);
   state_->revision = revision;
 }
 
@@ -106,6 +108,7 @@ void World::reset() {
   built->revision = state_->revision;
   built->has_scene_models = state_->has_scene_models;
   built->moved_statics = state_->moved_statics;
+  built->contacts.filter = std::move(state_->contacts.filter);
   for (const auto& model : state_->models) {
     if (keeps_statics && model->space == nullptr) {
       built->models.push_back(nullptr);

@@ -117,7 +117,7 @@ class SearchFunctions(IkContext):
         most: int,
     ) -> list[list[float]]:
         chosen: list[IkObject] = [self._joint(environment, joint) for joint in joints]
-        random = np.random.default_rng(int(self._world.seed) if hasattr(self._world, "seed") else 1)
+        random = np.random.default_rng(int(self._simulation.seed))
         limit = min(max(seconds, 0.0), 60.0)
         solver, target = self._solver(environment), self._group(environment, group)
         return solver.search(target, chosen, limit, valid, random, most=most)

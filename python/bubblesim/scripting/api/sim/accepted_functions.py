@@ -13,22 +13,6 @@ from bubblesim.scripting.api.sim.logs import LogFunctions
 class AcceptedFunctions(LogFunctions):
     """Objects that scripts cannot make here are dummies with a pose and a name; a warning states it once."""
 
-    def createJoint(
-        self, kind: int, mode: int = 0, options: int = 0, sizes: Any = None, colour: Any = None, other: Any = None
-    ) -> int:
-        """Return a dummy in place of a joint: joints are made in the scene's file, or in simIK."""
-        return self._stand_in_for("Joint", "createJoint", "a joint that a script creates moves nothing: it is a dummy")
-
-    def createProximitySensor(
-        self, kind: int, subtype: int = 0, options: int = 0, integers: Any = None, floats: Any = None, more: Any = None
-    ) -> int:
-        """Return a dummy in place of a proximity sensor: sensors are made in the scene's file."""
-        return self._stand_in_for("Proximity_sensor", "createProximitySensor", "it is a dummy, which measures nothing")
-
-    def createVisionSensor(self, options: int, integers: Any = None, floats: Any = None, more: Any = None) -> int:
-        """Return a dummy in place of a vision sensor: sensors are made in the scene's file."""
-        return self._stand_in_for("Vision_sensor", "createVisionSensor", "it is a dummy, which measures nothing")
-
     def createForceSensor(self, options: int, integers: Any = None, floats: Any = None, more: Any = None) -> int:
         """Return a dummy in place of a force sensor: sensors are made in the scene's file."""
         return self._stand_in_for("Force_sensor", "createForceSensor", "it is a dummy, which measures nothing")
@@ -87,19 +71,6 @@ class AcceptedFunctions(LogFunctions):
     def setSphericalJointRotation(self, joint: Handle, quaternion: Numbers) -> int:
         """Turn a spherical joint; see setSphericalJointMatrix."""
         return 1
-
-    def addScript(self, kind: int, *more: Any) -> int:
-        """Return -1: scripts are files of the scene."""
-        self._warn("addScript", "scripts are files, which the scene names")
-        return -1
-
-    def associateScriptWithObject(self, script: int, handle: int) -> int:
-        """Return -1: scripts are files of the scene."""
-        return -1
-
-    def setScriptText(self, script: int, text: str) -> int:
-        """Return -1: scripts are files of the scene."""
-        return -1
 
     def getScriptName(self, script: int) -> str:
         """Return the name of a script's object (old style)."""

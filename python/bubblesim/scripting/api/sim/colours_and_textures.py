@@ -160,12 +160,5 @@ class LookFunctions(DistanceFunctions, LogFunctions):
             images.append(np.frombuffer(data, np.uint8).reshape(height, width, 3))
         return bytes(np.concatenate(images, axis=0 if operation else 1).tobytes())
 
-    def generateTextShape(
-        self, text: str, colour: Any = None, height: float = 0.1, centered: bool = False, alphabet: Any = None
-    ) -> int:
-        """Return a dummy with the name of a string; its letters are not made."""
-        dummy = self._caller.shared.dummies.create(self._world, "Text", height, temporary=not self._is_stopped())
-        return dummy.handle
-
     def _warn_of(self, function: str, why: str) -> None:
         self.addLog(self.verbosity_scriptwarnings | self.verbosity_once, f"sim.{function}: {why}")

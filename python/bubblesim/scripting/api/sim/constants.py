@@ -108,6 +108,7 @@ class SimConstants(ParameterConstants):
     jointdynctrl_force = 1
     jointdynctrl_velocity = 4
     jointdynctrl_position = 8
+    jointdynctrl_callback = 16
 
     object_shape_type = 0
     object_joint_type = 1

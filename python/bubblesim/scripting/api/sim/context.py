@@ -37,6 +37,11 @@ class ApiContext(SimConstants):
         """Return the handle under which callers know an object."""
         return self._edits.known_handle(handle) if self._edits.replaced else handle
 
+    def _sensor(self, handle: int) -> int:
+        """Return the handle under which the simulation knows a sensor."""
+        handle = self._resolve(handle)
+        return self._edits.sensors.get(handle, handle)
+
     def _resolve(self, handle: int) -> int:
         """Convert sim.handle_self and sim.handle_parent to the handle of an object."""
         if 0 <= handle <= MAX_HANDLE:

@@ -4,17 +4,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 from bubblesim._core import add_copy, copy_model
 from bubblesim.scene_state.primitive_shapes import PrimitiveShape
+from bubblesim.scene_state.text_shapes import text_sdf
 from bubblesim.scripting.api.kinds import Handle, Integers, Numbers, Vector3
+from bubblesim.scripting.api.sim.logs import LogFunctions
 from bubblesim.scripting.api.sim.object_changes import ObjectChangeFunctions
 
 _NO_COLOUR: list[float] = []
 _RESPONDABLE, _STATIC = 8, 16  # options of createPureShape
 
 
-class CreatedObjectFunctions(ObjectChangeFunctions):
+class CreatedObjectFunctions(ObjectChangeFunctions, LogFunctions):
     """Dummies are frames without a body; they move with the object that they are attached to. A dummy that is created
     while the simulation runs ends with the run, others stay. A created shape is a model of one link, and stays until it
     is removed or the scene is closed."""
@@ -25,6 +28,35 @@ class CreatedObjectFunctions(ObjectChangeFunctions):
         if colour:
             dummy.colours[self.colorcomponent_ambient_diffuse] = list(colour[:3])
         return dummy.handle
+
+    def createJoint(
+        self, joint_type: int, mode: int = 0, options: int = 0, sizes: Any = None, colour: Any = None, more: Any = None
+    ) -> int:
+        """Create a joint at the origin and return its handle; ``sizes``, its length and diameter, are for drawings.
+
+        It has no physics: setJointPosition moves all that is below it in the tree, about or along its z axis, so a
+        ``mode`` of sim.jointmode_dynamic is taken for kinematic, with a warning. As in the original, a revolute joint
+        turns without limits, a prismatic one moves from -0.5 m to 0.5 m: see setJointInterval. It ends like a dummy."""
+        types = {
+            self.joint_revolute: "revolute",
+            self.joint_prismatic: "prismatic",
+            self.joint_spherical: "ball",
+        }
+        if joint_type not in types:
+            raise ValueError(
+                f"{joint_type} is not a type of joints: use sim.joint_revolute, joint_prismatic or joint_spherical"
+            )
+        if mode == self.jointmode_dynamic:
+            level = self.verbosity_scriptwarnings | self.verbosity_once
+            self.addLog(level, "sim.createJoint: the joint is kinematic: those that physics moves are made in files")
+        size = float(sizes[0]) if isinstance(sizes, list | tuple) and sizes else 0.1
+        name = types[joint_type].capitalize() + "_joint" if joint_type != self.joint_spherical else "Spherical_joint"
+        made = self._caller.shared.dummies.create(
+            self._world, name, size, temporary=not self._is_stopped(), joint=types[joint_type]
+        )
+        if joint_type == self.joint_prismatic:
+            self._world.set_joint_limits(made.handle, -0.5, 0.5)
+        return made.handle
 
     def getDummySize(self, dummy: Handle) -> float:
         """Return the size of a dummy in metres."""
@@ -58,6 +90,16 @@ class CreatedObjectFunctions(ObjectChangeFunctions):
             raise ValueError(f"the mass of a shape must be positive, found {mass:g}")
         flags = {"static": bool(options & _STATIC), "respondable": bool(options & _RESPONDABLE)}
         return self._add_shape(PrimitiveShape(kinds[primitive_type], list(sizes), mass, **flags))
+
+    def generateTextShape(
+        self, text: str, colour: Any = None, height: float = 0.1, centred: bool = False, alphabet: Any = None
+    ) -> int:
+        """Create a line of words and return its handle; not in sysCall_sensing.
+
+        It lies along x, its letters up along y, with capital letters of a ``height`` in m, and collides with nothing.
+        It stays until it is removed or the scene is closed."""
+        shades = [float(part) for part in colour] if isinstance(colour, list | tuple) else [1.0, 1.0, 1.0]
+        return self._tree.object_of(self._add_model(text_sdf(text, shades[:3], height, centred=centred), "Text"))
 
     def removeObjects(self, handles: Integers, delayed: bool = False) -> int:
         """Remove dummies and whole models; return their number. ``delayed`` has no effect.

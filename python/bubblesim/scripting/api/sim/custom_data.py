@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from bubblesim.scripting.api.kinds import Bytes, DataOrNothing, Handle
+from bubblesim.scripting.api.kinds import NO_OPTIONS, Bytes, DataOrNothing, Handle, Options
 from bubblesim.scripting.api.sim.signals import SignalFunctions
 
 
@@ -57,7 +57,7 @@ class CustomDataFunctions(SignalFunctions):
         """Set the flag 'signal.NAME' of the scene, or 'customData.NAME' of the scene or an object."""
         self._set_property(bool, target, name, value)
 
-    def getBoolProperty(self, target: Handle, name: str) -> bool | None:
+    def getBoolProperty(self, target: Handle, name: str, options: Options = NO_OPTIONS) -> bool | None:
         """Return the flag 'signal.NAME' of the scene, or 'customData.NAME' of the scene or an object."""
         value: bool | None = self._get_property(bool, target, name)
         return value
@@ -66,7 +66,7 @@ class CustomDataFunctions(SignalFunctions):
         """Set the bytes 'signal.NAME' of the scene, or 'customData.NAME' of the scene or an object."""
         self._set_property(bytes, target, name, value)
 
-    def getBufferProperty(self, target: Handle, name: str) -> bytes | None:
+    def getBufferProperty(self, target: Handle, name: str, options: Options = NO_OPTIONS) -> bytes | None:
         """Return the bytes 'signal.NAME' of the scene, or 'customData.NAME' of the scene or an object."""
         value: bytes | None = self._get_property(bytes, target, name)
         return value
@@ -75,7 +75,7 @@ class CustomDataFunctions(SignalFunctions):
         """Set the table 'signal.NAME' of the scene, or 'customData.NAME' of the scene or an object."""
         self._set_property(dict, target, name, value)
 
-    def getTableProperty(self, target: Handle, name: str) -> Any:
+    def getTableProperty(self, target: Handle, name: str, options: Options = NO_OPTIONS) -> Any:
         """Return the table 'signal.NAME' of the scene, or 'customData.NAME' of the scene or an object."""
         return self._get_property(dict, target, name)
 

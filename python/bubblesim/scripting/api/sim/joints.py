@@ -7,7 +7,7 @@ import math
 from typing import Any
 
 from bubblesim._core import MotorMode
-from bubblesim.scripting.api.kinds import Handle
+from bubblesim.scripting.api.kinds import Handle, Numbers
 from bubblesim.scripting.api.sim.context import ApiContext
 
 
@@ -22,6 +22,8 @@ class JointFunctions(ApiContext):
         """Set the joint position at once; for a position-controlled joint, also set the target position."""
         joint = self._resolve(joint)
         self._world.set_joint_position(joint, position)
+        if self._world.is_kinematic(joint):
+            self._tree.note_poses(joint)
         if self._world.motor_mode(joint) == MotorMode.POSITION:
             self._world.set_target_position(joint, position)
 
@@ -31,6 +33,14 @@ class JointFunctions(ApiContext):
         if not math.isfinite(upper - lower):
             return True, [-math.pi, math.tau]
         return False, [lower, upper - lower]
+
+    def setJointInterval(self, joint: Handle, cyclic: bool, interval: Numbers) -> None:
+        """Set the limits of a joint that a script created: whether it has none, and [lower limit, range]."""
+        joint = self._resolve(joint)
+        if not cyclic and (len(interval) != 2 or not interval[1] >= 0):
+            raise ValueError(f"an interval is a lower limit and a range of at least 0, found {interval}")
+        limits = (-math.inf, math.inf) if cyclic else (interval[0], interval[0] + interval[1])
+        self._world.set_joint_limits(joint, *limits)
 
     def getJointType(self, joint: Handle) -> int:
         """Return sim.joint_revolute, joint_prismatic or joint_spherical; revolute for joints with several axes."""

@@ -26,7 +26,7 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         joint, visionintparam_resolution_x and y of a camera, shapeintparam_static and shapeintparam_respondable of a
         model or link, proxintparam_entity_to_detect of a proximity sensor.
 
-        The control modes of joints are sim.jointdynctrl_free, force, velocity and position.
+        The control modes of joints are sim.jointdynctrl_free, force, velocity, position, and callback: sysCall_joint.
         """
         handle = self._resolve(handle)
         read = self._integers().get(parameter)
@@ -175,8 +175,12 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
             self.jointintparam_ctrl_enabled: lambda joint: int(self._control_mode(joint) == self.jointdynctrl_position),
             self.shapeintparam_static: lambda shape: int(self._is_static(shape)),
             self.shapeintparam_respondable: lambda shape: int(self._is_respondable(shape)),
-            self.visionintparam_resolution_x: lambda camera: int(camera_optics(self._simulation, camera)[0]),
-            self.visionintparam_resolution_y: lambda camera: int(camera_optics(self._simulation, camera)[1]),
+            self.visionintparam_resolution_x: lambda camera: int(
+                camera_optics(self._simulation, self._sensor(camera))[0]
+            ),
+            self.visionintparam_resolution_y: lambda camera: int(
+                camera_optics(self._simulation, self._sensor(camera))[1]
+            ),
             self.proxintparam_entity_to_detect: self._entity_to_detect,
         }
 
@@ -195,7 +199,9 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         return {
             self.jointfloatparam_velocity: lambda joint: float(self._world.joint_velocity(joint)),
             self.jointfloatparam_upper_limit: lambda joint: float(self._world.joint_limits(joint)[1]),
-            self.visionfloatparam_perspective_angle: lambda camera: float(camera_optics(self._simulation, camera)[2]),
+            self.visionfloatparam_perspective_angle: lambda camera: float(
+                camera_optics(self._simulation, self._sensor(camera))[2]
+            ),
             self.objfloatparam_size_factor: lambda handle: 1.0,
             self.shapefloatparam_mass: lambda shape: self.getShapeMass(self._shown(shape)),
         }
@@ -204,16 +210,27 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         first, turning = self.shapefloatparam_init_velocity_x, self.shapefloatparam_init_velocity_a
         return [first, first + 1, first + 2, turning, turning + 1, turning + 2]
 
+    def _optics_of(self, camera: int) -> tuple[int, int, float]:
+        columns, rows, angle = camera_optics(self._simulation, self._sensor(camera))
+        return columns, rows, angle
+
     def _control_mode(self, joint: int) -> int:
+        if self._edits.callback_joints.get(joint, self._world.is_driven_by_callback(joint)):
+            return self.jointdynctrl_callback
         mode = self._world.motor_mode(joint)
         return next(number for number, known in self._control_modes().items() if known == mode)
 
     def _set_control_mode(self, joint: int, value: int) -> None:
+        if value == self.jointdynctrl_callback:
+            self._world.motor_mode(joint)  # raises
+            self._edits.callback_joints[joint] = True
+            return
         if value not in self._control_modes():
             raise ValueError(
                 f"{value} is not a control mode of a joint; valid ones: sim.jointdynctrl_free, jointdynctrl_force, "
-                "jointdynctrl_velocity and jointdynctrl_position"
+                "jointdynctrl_velocity, jointdynctrl_position and jointdynctrl_callback"
             )
+        self._edits.callback_joints[joint] = False
         self._world.set_motor_mode(joint, self._control_modes()[value])
 
     def _enable_motor(self, joint: int, value: int) -> None:
@@ -227,15 +244,15 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
             self._set_control_mode(joint, self.jointdynctrl_position if value else self.jointdynctrl_velocity)
 
     def _entity_to_detect(self, sensor: int) -> int:
-        self._world.sonar_limits(sensor)  # raises
-        return self._caller.shared.collections.detected.get(sensor, self.handle_all)
+        self._world.sonar_limits(self._sensor(sensor))  # raises
+        return self._caller.shared.collections.detected.get(self._sensor(sensor), self.handle_all)
 
     def _set_entity_to_detect(self, sensor: int, entity: int) -> None:
-        self._world.sonar_limits(sensor)  # raises
+        self._world.sonar_limits(self._sensor(sensor))  # raises
         entity = self.handle_all if entity == -1 else entity  # old programs
         if not self._is_entity(entity):
             raise ValueError(f"{entity} is neither an object nor a collection nor sim.handle_all")
-        self._caller.shared.collections.detected[sensor] = entity
+        self._caller.shared.collections.detected[self._sensor(sensor)] = entity
 
     def _kept(self, kind: type, handle: int, parameter: int) -> Any:
         self._check_parameter(parameter, _OF_OBJECTS)

@@ -150,7 +150,7 @@ class ObjectFunctions(ApiContext):
         for force-torque sensors, and object_dummy_type for dummies and other sensors. Objects of a file that have no
         effect here: object_camera_type, object_light_type, object_graph_type.
         """
-        handle = self._resolve(handle)
+        handle = self._sensor(handle)
         kind = self._tree.kind(handle)
         if kind == "sensor":
             sensors = {

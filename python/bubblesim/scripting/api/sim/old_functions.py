@@ -31,6 +31,31 @@ class OldFunctions(LogFunctions):
         self._tree.kind(self._resolve(handle))  # raises
         return 1.0
 
+    def getObjectInt32Parameter(self, handle: Handle, parameter: int) -> tuple[int, int]:
+        """Return 1, and an integer parameter of an object (old name of getObjectInt32Param)."""
+        sim: Any = self
+        return 1, sim.getObjectInt32Param(handle, parameter)
+
+    def getObjectFloatParameter(self, handle: Handle, parameter: int) -> tuple[int, float]:
+        """Return 1, and a parameter of an object (old name of getObjectFloatParam)."""
+        sim: Any = self
+        return 1, sim.getObjectFloatParam(handle, parameter)
+
+    def getObjectStringParameter(self, handle: Handle, parameter: int) -> tuple[int, str]:
+        """Return 1, and a string of an object (old name of getObjectStringParam)."""
+        sim: Any = self
+        return 1, sim.getObjectStringParam(handle, parameter)
+
+    def includeRel(self, file: str) -> Any:
+        """Run a Lua file beside the script, and return what it returns; in Lua only."""
+        raise RuntimeError(
+            "sim.includeRel is for scripts in Lua: import the module, or begin the script with 'include'"
+        )
+
+    def includeAbs(self, file: str) -> Any:
+        """The same; of a path only the name of the file counts."""
+        return self.includeRel(file)
+
     def getObjectUid(self, handle: Handle) -> int:
         """Return a number that no other object has: its handle."""
         handle = self._resolve(handle)

@@ -10,12 +10,12 @@ from typing import Any
 from bubblesim._core import SceneError, scene_folders
 from bubblesim.scene_state.saved_scene import scene_text, write_scene
 from bubblesim.scripting.api.functions import for_remote_only
-from bubblesim.scripting.api.sim.created_objects import CreatedObjectFunctions
+from bubblesim.scripting.api.sim.created_sensors import CreatedSensorFunctions
 
 _SCENES = (".sdf", ".world", ".urdf")
 
 
-class SceneFileFunctions(CreatedObjectFunctions):
+class SceneFileFunctions(CreatedSensorFunctions):
     """Of a path only the name of the file counts: 'arm.ttm' is the model 'arm' of the folders that are searched. A
     Python script, and a client of a node with --remote-trusted, can also give the path of an .sdf file, or of a .ttt or
     .ttm file next to one."""

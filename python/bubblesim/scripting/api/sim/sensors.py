@@ -30,7 +30,7 @@ class SensorFunctions(CollectionFunctions):
 
     def readProximitySensor(self, sensor: Handle) -> Reading:
         """Return the last measurement; result 0 and distance 0.0 if nothing was detected."""
-        sensor = self._resolve(sensor)
+        sensor = self._sensor(sensor)
         return self._detected(read_proximity(self._simulation, sensor), sensor)
 
     def handleProximitySensor(self, sensor: Handle) -> Reading:
@@ -38,7 +38,7 @@ class SensorFunctions(CollectionFunctions):
         due."""
         if sensor in (self.handle_all, self.handle_all_except_explicit):
             return _NOTHING
-        sensor = self._resolve(sensor)
+        sensor = self._sensor(sensor)
         return self._detected(measure_proximity(self._simulation, sensor), sensor)
 
     def checkProximitySensor(self, sensor: Handle, entity: Handle) -> Reading:
@@ -46,7 +46,7 @@ class SensorFunctions(CollectionFunctions):
 
         It is an object, a collection, or sim.handle_all.
         """
-        reading: Reading = measure_proximity(self._simulation, self._resolve(sensor))
+        reading: Reading = measure_proximity(self._simulation, self._sensor(sensor))
         return self._limited(reading, entity if entity == self.handle_all else self._resolve(entity))
 
     def getReadingTime(self, sensor: Handle) -> float:
@@ -55,31 +55,31 @@ class SensorFunctions(CollectionFunctions):
         Without readers it is the time at which the sensor was last due. A reading of this step is later than
         getSimulationTime in sysCall_sensing.
         """
-        return float(reading_time(self._simulation, self._resolve(sensor)))
+        return float(reading_time(self._simulation, self._sensor(sensor)))
 
     def readImu(self, sensor: Handle) -> tuple[list[float], list[float], list[float]]:
         """Return orientation (x, y, z, w), angular velocity (rad/s), linear acceleration (m/s^2), in sensor axes."""
-        reading = read_imu(self._simulation, self._resolve(sensor))
+        reading = read_imu(self._simulation, self._sensor(sensor))
         return reading.orientation.tolist(), reading.angular_velocity.tolist(), reading.linear_acceleration.tolist()
 
     def readForceSensor(self, sensor: Handle) -> tuple[int, list[float], list[float]]:
         """Return 1, and the force (N) and torque (N m) of a force-torque sensor, averaged over the last step."""
-        reading = read_force_torque(self._simulation, self._resolve(sensor))
+        reading = read_force_torque(self._simulation, self._sensor(sensor))
         return 1, reading.force.tolist(), reading.torque.tolist()
 
     def readNavSat(self, sensor: Handle) -> tuple[list[float], list[float]]:
         """Return [latitude, longitude (degrees), altitude (m above WGS84)], and [east, north, up] velocity (m/s)."""
-        reading = read_navsat(self._simulation, self._resolve(sensor))
+        reading = read_navsat(self._simulation, self._sensor(sensor))
         return [reading.latitude, reading.longitude, reading.altitude], reading.velocity.tolist()
 
     def readAltimeter(self, sensor: Handle) -> tuple[float, float]:
         """Return the height (m) above the initial height, and the upward velocity (m/s)."""
-        reading = read_altimeter(self._simulation, self._resolve(sensor))
+        reading = read_altimeter(self._simulation, self._sensor(sensor))
         return reading.height, reading.velocity
 
     def readMagnetometer(self, sensor: Handle) -> list[float]:
         """Return the magnetic field (T) in the sensor's frame."""
-        field: list[float] = read_magnetometer(self._simulation, self._resolve(sensor)).field.tolist()
+        field: list[float] = read_magnetometer(self._simulation, self._sensor(sensor)).field.tolist()
         return field
 
     def readContacts(self, sensor: Handle) -> list[dict[str, Any]]:
@@ -97,15 +97,19 @@ class SensorFunctions(CollectionFunctions):
                 "positions": [point.position.tolist() for point in contact.points],
                 "normals": [point.normal.tolist() for point in contact.points],
             }
-            for contact in read_contacts(self._simulation, self._resolve(sensor)).contacts
+            for contact in read_contacts(self._simulation, self._sensor(sensor)).contacts
         ]
 
     def _detected(self, reading: Reading, sensor: int) -> Reading:
         limits = self._caller.shared.collections.detected
-        return self._limited(reading, limits.get(sensor, self.handle_all)) if limits else reading
+        return self._limited(reading, limits.get(sensor, self.handle_all) if limits else self.handle_all)
 
     def _limited(self, reading: Reading, entity: int) -> Reading:
         """Return a reading without an object that does not belong to an object or collection."""
-        if reading[3] < 0 or self._belongs(reading[3], entity):
-            return reading
+        result, distance, point, found, normal = reading
+        if found >= 0 and self._edits.shapes:  # of a created shape, its link
+            model = int(self._world.outermost_model_of(found))
+            found = self._shown(model) if model in self._edits.shapes else found
+        if found < 0 or entity == self.handle_all or self._belongs(found, entity):
+            return result, distance, point, found, normal
         return _NOTHING

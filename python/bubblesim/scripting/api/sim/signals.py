@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from bubblesim._core import read_lidar, reading_time
-from bubblesim.scripting.api.kinds import Handle, TextOrBytes
+from bubblesim.scripting.api.kinds import NO_OPTIONS, Handle, Options, TextOrBytes
 from bubblesim.scripting.api.sim.context import ApiContext
 
 _DATA_PREFIX = "customData."
@@ -62,14 +62,23 @@ class SignalFunctions(ApiContext):
         """Delete an integer."""
         self._clear(int, name)
 
+    def getSignalName(self, index: int, kind: int = 3) -> str | None:
+        """Return the name of the signal with an index from 0 among the integers (``kind`` 0), numbers (1 or 2) or
+        strings (3); None (nil) behind the last one."""
+        kinds = {0: int, 1: float, 2: float, 3: str}
+        if kind not in kinds:
+            raise ValueError(f"{kind} is not a kind of signals: 0 integers, 1 and 2 numbers, 3 strings")
+        names = [name for of, name in self._caller.shared.signals if of is kinds[kind]]
+        return names[index] if 0 <= index < len(names) else None
+
     def setStringProperty(self, target: Handle, name: str, value: TextOrBytes) -> None:
         """Set the text 'signal.NAME' of the scene (newer name of setStringSignal), or 'customData.NAME' of it or an
         object."""
         self._set_property(str, target, name, value)
 
-    def getStringProperty(self, target: Handle, name: str) -> str | bytes | None:
+    def getStringProperty(self, target: Handle, name: str, options: Options = NO_OPTIONS) -> str | bytes | None:
         """Return the text 'signal.NAME' of the scene, or 'customData.NAME' of it or an object."""
-        if self._data_key(target, name) is None:
+        if target == self.handle_scene and name.startswith(_PREFIX):
             return self._get_text(self._signal(target, name))
         value: str | bytes | None = self._get_property(str, target, name)
         return value
@@ -79,7 +88,7 @@ class SignalFunctions(ApiContext):
         object."""
         self._set_property(float, target, name, value)
 
-    def getFloatProperty(self, target: Handle, name: str) -> float | None:
+    def getFloatProperty(self, target: Handle, name: str, options: Options = NO_OPTIONS) -> float | None:
         """Return the number 'signal.NAME' of the scene, or 'customData.NAME' of it or an object."""
         value: float | None = self._get_property(float, target, name)
         return value
@@ -89,7 +98,7 @@ class SignalFunctions(ApiContext):
         object."""
         self._set_property(int, target, name, value)
 
-    def getIntProperty(self, target: Handle, name: str) -> int | None:
+    def getIntProperty(self, target: Handle, name: str, options: Options = NO_OPTIONS) -> int | None:
         """Return the integer 'signal.NAME' of the scene, or 'customData.NAME' of it or an object."""
         value: int | None = self._get_property(int, target, name)
         return value

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from bubblesim.scripting.api.functions import script_module
 from bubblesim.scripting.api.sim.accepted_functions import AcceptedFunctions
+from bubblesim.scripting.api.sim.added_scripts import AddedScriptFunctions
 from bubblesim.scripting.api.sim.colours_and_textures import LookFunctions
-from bubblesim.scripting.api.sim.created_objects import CreatedObjectFunctions
-from bubblesim.scripting.api.sim.custom_data import CustomDataFunctions
+from bubblesim.scripting.api.sim.created_sensors import CreatedSensorFunctions
 from bubblesim.scripting.api.sim.distances import DistanceFunctions
 from bubblesim.scripting.api.sim.drawings import DrawingFunctions
 from bubblesim.scripting.api.sim.forces import ForceFunctions
@@ -25,6 +25,7 @@ from bubblesim.scripting.api.sim.parameters import ParameterFunctions
 from bubblesim.scripting.api.sim.particles import ParticleFunctions
 from bubblesim.scripting.api.sim.paths import PathFunctions
 from bubblesim.scripting.api.sim.programs import ProgramFunctions
+from bubblesim.scripting.api.sim.properties import PropertyFunctions
 from bubblesim.scripting.api.sim.random_numbers import RandomFunctions
 from bubblesim.scripting.api.sim.scene_files import SceneFileFunctions
 from bubblesim.scripting.api.sim.script_parameters import ScriptParameterFunctions
@@ -44,7 +45,7 @@ class SimApi(
     PathFunctions,
     ObjectFunctions,
     SceneFileFunctions,
-    CreatedObjectFunctions,
+    CreatedSensorFunctions,
     MatrixFunctions,
     ParameterFunctions,
     JointFunctions,
@@ -54,7 +55,7 @@ class SimApi(
     LookFunctions,
     DistanceFunctions,
     CollectionFunctions,
-    CustomDataFunctions,
+    PropertyFunctions,
     SignalFunctions,
     PackFunctions,
     TimeFunctions,
@@ -68,6 +69,7 @@ class SimApi(
     ProgramFunctions,
     LogFunctions,
     ScriptFunctions,
+    AddedScriptFunctions,
     ScriptParameterFunctions,
     SelectionFunctions,
     TubeFunctions,

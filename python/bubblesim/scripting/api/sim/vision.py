@@ -36,7 +36,7 @@ class VisionFunctions(CollectionFunctions):
         Three bytes per pixel, red first; one with options 1 (grey). A cut-off above 0 adds one byte: 255 where the
         depth, 0 to 1, is below it. ``position`` and ``size`` select a part, from the lower left corner, in pixels.
         """
-        image = read_camera(self._simulation, self._resolve(sensor))
+        image = read_camera(self._simulation, self._sensor(sensor))
         pixels = self._picture(image, sensor)
         if options & _GREY:
             pixels = pixels.mean(axis=2).round().astype(np.uint8)[:, :, None]
@@ -55,7 +55,7 @@ class VisionFunctions(CollectionFunctions):
         if len(image) != columns * rows * 3:
             raise ValueError(f"{columns} x {rows} pixels need {columns * rows * 3} bytes, found {len(image)}")
         top_down = np.frombuffer(image, np.uint8).reshape(rows, columns, 3)[::-1]
-        override_image(self._simulation, self._resolve(sensor), top_down.tobytes())
+        override_image(self._simulation, self._sensor(sensor), top_down.tobytes())
 
     def setVisionSensorCharImage(self, sensor: Handle, image: Bytes) -> None:
         """Replace the image of a camera (old style)."""
@@ -82,7 +82,7 @@ class VisionFunctions(CollectionFunctions):
 
         0 at the near plane to 1 at the far plane; with options 1 in metres along the optical axis.
         """
-        image = read_camera(self._simulation, self._resolve(sensor))
+        image = read_camera(self._simulation, self._sensor(sensor))
         depth = np.clip(image.depth, image.near, image.far) if options & _METRES else _buffer(image)
         part = _part(depth[::-1], position, size)
         return part.astype(np.float32).tobytes(), [part.shape[1], part.shape[0]]
@@ -98,14 +98,14 @@ class VisionFunctions(CollectionFunctions):
 
     def getVisionSensorArray(self, sensor: Handle) -> Array:
         """Return the image as an array of height x width x 3 without a copy, rows from top to bottom."""
-        return self._picture(read_camera(self._simulation, self._resolve(sensor)), sensor)
+        return self._picture(read_camera(self._simulation, self._sensor(sensor)), sensor)
 
     def readVisionSensor(self, sensor: Handle) -> tuple[Any, ...]:
         """Return 0, and minimum, maximum and mean of the last image's intensity, red, green, blue and depth.
 
         A sysCall_vision of the camera's script may set the result to 1, and add lists of numbers.
         """
-        handle = self._resolve(sensor)
+        handle = self._sensor(sensor)
         triggered, packets = self._caller.shared.vision_results.get(handle, (False, []))
         more = [np.frombuffer(_raw(packet), np.float32).tolist() for packet in packets]
         return (int(triggered), _statistics(read_camera(self._simulation, handle)), *more)
@@ -115,14 +115,14 @@ class VisionFunctions(CollectionFunctions):
         nothing: cameras measure when they are due."""
         if sensor in (self.handle_all, self.handle_all_except_explicit):
             return 0, []
-        return 0, _statistics(measure_camera(self._simulation, self._resolve(sensor)))
+        return 0, _statistics(measure_camera(self._simulation, self._sensor(sensor)))
 
     def checkVisionSensor(self, sensor: Handle, entity: Handle) -> Packets:
         """Measure now; return 1 if any part of an object or collection is visible, else 0.
 
         sim.handle_all stands for any object.
         """
-        image = measure_camera(self._simulation, self._resolve(sensor))
+        image = measure_camera(self._simulation, self._sensor(sensor))
         entity = entity if entity == self.handle_all else self._resolve(entity)
         seen = any(self._belongs(int(link), entity) for link in np.unique(image.objects) if link >= 0)
         return int(seen), _statistics(image)
@@ -172,22 +172,22 @@ class VisionFunctions(CollectionFunctions):
 
     def readLidar(self, sensor: Handle) -> Array:
         """Return ranges in metres, rings x samples, as an array without a copy; inf without a return."""
-        ranges: Array = read_lidar(self._simulation, self._resolve(sensor)).ranges
+        ranges: Array = read_lidar(self._simulation, self._sensor(sensor)).ranges
         return ranges
 
     def readLidarPoints(self, sensor: Handle) -> Array:
         """Return the last scan's points, an array of count x 3 of float32: x, y, z in metres in the sensor's frame."""
-        points: Array = read_lidar(self._simulation, self._resolve(sensor)).points
+        points: Array = read_lidar(self._simulation, self._sensor(sensor)).points
         return points
 
     def _optics(self, sensor: int) -> tuple[int, int, float]:
         """Return width and height in pixels, and the horizontal field of view, rad, without rendering."""
-        optics: tuple[int, int, float] = camera_optics(self._simulation, self._resolve(sensor))
+        optics: tuple[int, int, float] = camera_optics(self._simulation, self._sensor(sensor))
         return optics
 
     def _picture(self, image: Any, sensor: int) -> Array:
         if image.rgb is None:
-            path = self._world.short_path(self._resolve(sensor))
+            path = self._world.short_path(self._sensor(sensor))
             raise ValueError(f"{path} is a depth camera without colour image: use sim.getVisionSensorDepth")
         pixels: Array = image.rgb
         return pixels

@@ -283,7 +283,9 @@ class SimVision:
             return self._caller.object_handle
         if not 0 <= sensor <= MAX_HANDLE:
             raise HandleError(sensor)
-        return self._caller.shared.edits.replaced.get(sensor, sensor)
+        edits = self._caller.shared.edits
+        sensor = edits.replaced.get(sensor, sensor)
+        return edits.sensors.get(sensor, sensor)
 
     def _work(self, sensor: int) -> _Work:
         handle = self._resolve(sensor)

@@ -174,10 +174,12 @@ class JointReader {
       description.motor = MotorMode::kPosition;
     } else if (motor == "effort") {
       description.motor = MotorMode::kEffort;
+    } else if (motor == "callback") {
+      description.by_callback = true;
     } else {
       context_.report(axis.source("bubblesim:motor"), path_,
-                      "<bubblesim:motor> is '" + motor + "', it must be velocity, position or effort" +
-                          did_you_mean(motor, {"velocity", "position", "effort"}));
+                      "<bubblesim:motor> is '" + motor + "', it must be velocity, position, effort or callback" +
+                          did_you_mean(motor, {"velocity", "position", "effort", "callback"}));
     }
   }
 
