@@ -124,6 +124,9 @@ class _Path:
 
         self._observer.close()
         if len(self._recording.samples) < 2:
-            raise RunError(f"{self._file} is not written: no robot was published on /tf and /clock")
+            raise RunError(
+                f"{self._file} is not written: no robot was published on /tf and /clock. The scene may have none, or a "
+                "short run may have ended before its topics were found: --speed 10, or a later --until"
+            )
         draw(self._scene, self._recording, self._file)
         print(f"{self._recording.summary()}\npicture            {self._file}", file=sys.stderr, flush=True)

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import ipaddress
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 from urllib.parse import urlsplit
 
 
@@ -30,3 +31,30 @@ def stay_on_this_machine(arguments: Sequence[str]) -> None:
     )
     if not chosen and is_loopback(urlsplit(master).hostname or ""):
         os.environ["ROS_HOSTNAME"] = "localhost"
+
+
+def user_of_port(port: int) -> str:
+    """Return " (PROGRAM, process PID)" of who listens on a TCP port; empty if it is not a process of this user."""
+    sockets = set(_sockets_on(port))
+    for descriptor in Path("/proc").glob("[0-9]*/fd/*") if sockets else ():
+        try:
+            if os.readlink(descriptor) in sockets:
+                process = descriptor.parents[1]
+                return f" ({(process / 'comm').read_text().strip()}, process {process.name})"
+        except OSError:
+            continue  # it has ended, or belongs to another user
+    return ""
+
+
+def _sockets_on(port: int) -> Iterator[str]:
+    """Yield what the descriptors of the sockets that listen on a port link to."""
+    listening = "0A"  # state in proc(5), /proc/net/tcp
+    for table in ("/proc/net/tcp", "/proc/net/tcp6"):
+        try:
+            lines = Path(table).read_text().splitlines()[1:]
+        except OSError:
+            continue
+        for line in lines:
+            columns = line.split()
+            if columns[3] == listening and int(columns[1].rpartition(":")[2], 16) == port:
+                yield f"socket:[{columns[9]}]"
