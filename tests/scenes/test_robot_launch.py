@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from node_support import Node
 from ros_support import DEADLINE, SUPPORT, RosCore, start, stop_launch, wait_until
 
 # Heights of the frames from the robots' dimensions, metres.

@@ -24,6 +24,7 @@ _COMMANDS = (
     "test",
     "sweep",
     "view",
+    "ps",
     "bridge",
     "compat",
     "doctor",
@@ -44,6 +45,7 @@ Runs robot scenes and helps to write them. Begin with:
   bubblesim test test_mine.py            test a controller in the simulator
   bubblesim sweep mine.py --seeds 0:99   run over seeds and parameters
   bubblesim view                         open the window of a running simulation
+  bubblesim ps                           list your simulators on this machine
   bubblesim bridge                       pass topics between ROS 1 and ROS 2
   bubblesim compat                       list the packages for launch files of Gazebo
   bubblesim doctor                       diagnose problems of ROS or Python"""

@@ -46,8 +46,24 @@ def user_of_port(port: int) -> str:
     return ""
 
 
+def ports_of(process: int) -> list[int]:
+    """Return the TCP ports that a process of this user listens on."""
+    links = set()
+    for descriptor in Path(f"/proc/{process}/fd").glob("*"):
+        try:
+            links.add(os.readlink(descriptor))
+        except OSError:
+            continue  # it was closed
+    return sorted({port for port, link in _listening() if link in links})
+
+
 def _sockets_on(port: int) -> Iterator[str]:
     """Yield what the descriptors of the sockets that listen on a port link to."""
+    return (link for listening, link in _listening() if listening == port)
+
+
+def _listening() -> Iterator[tuple[int, str]]:
+    """Yield port and link of all sockets of this machine that listen."""
     listening = "0A"  # state in proc(5), /proc/net/tcp
     for table in ("/proc/net/tcp", "/proc/net/tcp6"):
         try:
@@ -56,5 +72,5 @@ def _sockets_on(port: int) -> Iterator[str]:
             continue
         for line in lines:
             columns = line.split()
-            if columns[3] == listening and int(columns[1].rpartition(":")[2], 16) == port:
-                yield f"socket:[{columns[9]}]"
+            if columns[3] == listening:
+                yield int(columns[1].rpartition(":")[2], 16), f"socket:[{columns[9]}]"

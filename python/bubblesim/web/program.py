@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import asyncio
 import errno
+import getpass
 import os
 import shlex
 import signal
@@ -169,11 +170,19 @@ def _show_address(options: argparse.Namespace, access: Access) -> Path | None:
     if not sys.stderr.isatty():
         shown = f"{access.public_address} {hint}"
     write_line(sys.stderr, f"info: the window is at {shown}")
+    if is_loopback(options.address) and (tunnel := _tunnel(access.port)):
+        write_line(sys.stderr, f"info: on your own machine, before you open it: {tunnel}")
     if not is_loopback(options.address):
         write_line(sys.stderr, f"warning: all who reach {options.address} and have the token can use the window")
     if options.browser and os.environ.get("DISPLAY") and file is not None:
         webbrowser.open(file.as_uri())  # the command line of a browser does not show the token
     return file
+
+
+def _tunnel(port: int) -> str:
+    """Return the command by which a user who came over ssh reaches a port here; empty for others."""
+    connection = os.environ.get("SSH_CONNECTION", "").split()  # the client's address and port, the server's
+    return f"ssh -L {port}:127.0.0.1:{port} {getpass.getuser()}@{connection[2]}" if len(connection) == 4 else ""
 
 
 def _node_address(place: str) -> str:
