@@ -12,7 +12,7 @@ import pytest
 from cli_support import bubblesim
 from ros_support import built
 
-COMMANDS = ["run", "shell", "scenes", "new-scene", "describe", "convert", "api", "test", "doctor"]
+COMMANDS = ["run", "ps", "shell", "scenes", "new-scene", "describe", "convert", "api", "test", "doctor"]
 
 
 def test_help_names_all_commands_and_exit_codes() -> None:

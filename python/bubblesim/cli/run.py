@@ -89,8 +89,9 @@ def _isolate(options: argparse.Namespace) -> None:
     print(f"info: in other terminals: {isolate()}", file=sys.stderr, flush=True)
     without_master = "--no-ros" in others or "--ros=2" in others or ("--ros", "2") in itertools.pairwise(others)
     options.roscore = not without_master
-    if "--remote" in others:  # a free port, which the node prints
-        others[others.index("--remote")] = "--remote=0"
+    for option, value in itertools.pairwise([*others, ""]):
+        if option == "--remote" and not value.isdigit():  # a free port, which the node prints
+            others[others.index(option)] = "--remote=0"
 
 
 def _run_with_programs(options: argparse.Namespace, node: list[str]) -> int:
