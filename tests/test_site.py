@@ -41,7 +41,9 @@ def test_pages_load_nothing_from_other_machines(site: Path) -> None:
 
 def test_what_a_page_needs_is_shown(site: Path) -> None:
     page = re.sub(r"<[^>]*>", "", (site / "tutorials" / "tricycle.html").read_text())
-    assert re.search(r"Needs running\s+In another terminal: roslaunch bubblesim tricycle.launch controller:=false", page)
+    assert re.search(
+        r"Needs running\s+In another terminal: roslaunch bubblesim tricycle.launch controller:=false", page
+    )
     assert "mine.py" in re.sub(r"<[^>]*>", "", (site / "tutorials" / "ball.html").read_text())
 
 

@@ -10,7 +10,6 @@ from page_client import Server
 from ros_support import free_port
 from web_support import Node
 
-
 PYTHON = Path(f"/proc/{os.getpid()}/comm").read_text().strip()
 
 

@@ -67,7 +67,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = list(sys.argv[1:] if arguments is None else arguments)
     if given[:1] and not given[0].startswith("-") and given[0] not in _COMMANDS:
         near = did_you_mean(difflib.get_close_matches(given[0], _COMMANDS, n=2))
-        parser.error(f"there is no command '{given[0]}'{near or f'; the commands are {', '.join(_COMMANDS)}'}")
+        known = "; the commands are " + ", ".join(_COMMANDS)
+        parser.error(f"there is no command '{given[0]}'{near or known}")
     # Add only the requested command if it is known: some commands load slowly.
     for command in given[:1] if given[:1] and given[0] in _COMMANDS else _COMMANDS:
         importlib.import_module(f"bubblesim.cli.{command.replace('-', '_')}").add_parser(commands)

@@ -50,7 +50,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--isolated",
         action="store_true",
-        help="use a roscore, a ROS 2 domain and ports of this run's own, so that several runs and users share a machine",
+        help="use a roscore, a ROS 2 domain and ports of its own, so that several runs and users share a machine",
     )
     parser.add_argument("--controller", metavar="COMMAND", type=shlex.split, help="also start this controller")
     parser.add_argument("--plot", metavar="FILE", type=Path, help="plot the robot's path to a .png, .pdf or .svg file")

@@ -40,7 +40,9 @@ def _check_terminals_python() -> Iterator[Finding]:
     first = shutil.which("python3")
     if first is None:
         return
-    found = subprocess.run([first, "-c", "import sys; print(sys.base_prefix)"], capture_output=True, text=True, check=False)
+    found = subprocess.run(
+        [first, "-c", "import sys; print(sys.base_prefix)"], capture_output=True, text=True, check=False
+    )
     if found.stdout.strip() not in ("", "/usr"):
         yield warning(
             f"the terminal's python3 is {first}, not Debian's: your scripts do not find rospy and bubblesim with it",

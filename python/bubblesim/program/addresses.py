@@ -38,7 +38,7 @@ def user_of_port(port: int) -> str:
     sockets = set(_sockets_on(port))
     for descriptor in Path("/proc").glob("[0-9]*/fd/*") if sockets else ():
         try:
-            if os.readlink(descriptor) in sockets:
+            if str(descriptor.readlink()) in sockets:
                 process = descriptor.parents[1]
                 return f" ({(process / 'comm').read_text().strip()}, process {process.name})"
         except OSError:
@@ -51,7 +51,7 @@ def ports_of(process: int) -> list[int]:
     links = set()
     for descriptor in Path(f"/proc/{process}/fd").glob("*"):
         try:
-            links.add(os.readlink(descriptor))
+            links.add(str(descriptor.readlink()))
         except OSError:
             continue  # it was closed
     return sorted({port for port, link in _listening() if link in links})

@@ -26,7 +26,9 @@ def isolate(environment: MutableMapping[str, str] = os.environ) -> str:
     random.shuffle(numbers)  # many users start at once
     number = next((number for number in numbers if _is_free(_FIRST_PORT + number)), None)
     if number is None:
-        raise RunError(f"the ports {_FIRST_PORT + 1} to {_FIRST_PORT + _DOMAINS} are all in use: `bubblesim ps` lists runs")
+        raise RunError(
+            f"the ports {_FIRST_PORT + 1} to {_FIRST_PORT + _DOMAINS} are all in use: `bubblesim ps` lists runs"
+        )
     values = {
         "ROS_MASTER_URI": f"http://localhost:{_FIRST_PORT + number}",
         "ROS_HOSTNAME": "localhost",

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -41,7 +42,7 @@ def own_runs() -> list[OwnRun]:
 def _is_node(folder: Path) -> bool:
     if folder.stat().st_uid != os.getuid():
         return False
-    program = Path(os.readlink(folder / "exe"))
+    program = (folder / "exe").readlink()
     return program.name == _NODE and program.parent.name == "bubblesim"
 
 
@@ -70,7 +71,7 @@ def _versions(arguments: list[str]) -> set[str]:
     if "--no-ros" in arguments:
         return set()
     given = [argument.partition("=")[2] for argument in arguments if argument.startswith("--ros=")]
-    given += [value for name, value in zip(arguments, arguments[1:], strict=False) if name == "--ros"]
+    given += [value for name, value in itertools.pairwise(arguments) if name == "--ros"]
     return {"1", "2"} if given[-1:] == ["both"] else set(given[-1:] or ["1"])
 
 

@@ -2,8 +2,8 @@
 """Pytest fixtures: `ros_master`, `controller` and `sim`.
 
 ``bubblesim test`` loads them; for plain pytest, add to conftest.py: pytest_plugins = ["bubblesim.testing.plugin"].
-With ``--keep-failed FOLDER``, what a failed test leaves is kept for those who did not see it run, such as an artifact of
-a CI: the bags, the logs of its programs, and a plot of the robot's path.
+With ``--keep-failed FOLDER``, what a failed test leaves is kept for those who did not see it run, such as an artifact
+of a CI: the bags, the logs of its programs, and a plot of the robot's path.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
 
 
-@pytest.hookimpl(hookwrapper=True)
+@pytest.hookimpl(hookwrapper=True)  # type: ignore[untyped-decorator]  # by pytest 7
 def pytest_runtest_makereport(item: pytest.Item) -> Iterator[None]:
     """Note that a test has failed; its fixtures end later."""
     outcome: Any = yield
