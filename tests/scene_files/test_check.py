@@ -121,3 +121,36 @@ def test_a_large_model_almost_without_mass_is_asked_about(
     main([written(tmp_path, TURNED.format(attributes=' degrees="true"', radius=radius))])
     warned = "/Crate: it is about 300 m large and has a mass of 2 kg; lengths are in metres" in capfd.readouterr().err
     assert warned is asked
+
+
+SENSOR = """\
+<sdf version="1.9" xmlns:bubblesim="https://bubblesim">
+  <model name="Post">
+    <static>true</static>
+    <link name="base">
+      <sensor name="eye" type="{kind}"><bubblesim:topic>/eye</bubblesim:topic>{more}</sensor>
+    </link>
+  </model>
+</sdf>
+"""
+FRAME = "<bubblesim:frame>eye</bubblesim:frame>"
+
+
+@pytest.mark.parametrize(
+    ("kind", "more", "why"),
+    [
+        ("imu", "<pose>0 0.3 0.4 0 0 0</pose>", "the sensor is 0.5 m from it"),  # 3, 4, 5
+        ("imu", "<pose>0 0 0 0 0 1.5</pose>", "the sensor is turned by 1.5 rad"),
+        ("imu", f"<pose>0 0.3 0.4 0 0 0</pose>{FRAME}", ""),
+        ("imu", "", ""),
+        ("camera", "", "images have an optical frame, z forward (REP 103)"),
+        ("camera", FRAME, ""),
+    ],
+)
+def test_a_frame_in_which_a_sensor_does_not_measure_is_warned_of(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], kind: str, more: str, why: str
+) -> None:
+    assert main([written(tmp_path, SENSOR.format(kind=kind, more=more))]) == 0
+    cure = "<bubblesim:frame>eye</bubblesim:frame> gives it a frame of its own"
+    line = f"warning: /Post/base/eye: /eye is in the frame base, but {why}: {cure}\n"
+    assert capfd.readouterr().err == (line if why else "")

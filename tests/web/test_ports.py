@@ -29,8 +29,8 @@ def test_a_port_for_view_that_is_in_use_is_an_error_that_names_its_user() -> Non
         run = bubblesim("view", "--port", port, "--remote", free_port())
     assert run.returncode == 1
     assert run.stderr.splitlines()[-1] == (
-        f"error: the window cannot listen on 127.0.0.1:{port}: Address already in use ({PYTHON}, process {os.getpid()}); "
-        "another port: --port PORT"
+        f"error: the window cannot listen on 127.0.0.1:{port}: Address already in use "
+        f"({PYTHON}, process {os.getpid()}); another port: --port PORT"
     )
 
 

@@ -210,7 +210,7 @@ def _require_settable(name: str, property_name: str) -> None:
 
 
 def _one_of(name: str, known: Sequence[str]) -> str:
-    near = difflib.get_close_matches(name, known, n=2)
+    near = difflib.get_close_matches(name, known, n=1)
     return did_you_mean(near) if near else f"; they have {', '.join(known)}"
 
 
