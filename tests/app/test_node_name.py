@@ -55,8 +55,8 @@ def test_a_second_node_of_the_name_is_refused_in_one_line_and_the_first_goes_on(
     second = run_sim("ball", env=roscore.env)
     assert second.returncode == 2
     assert second.stderr.splitlines() == [
-        f"error: a node {NAME} is already running on the ROS master {roscore.env['ROS_MASTER_URI']}: rename this node "
-        "with __name:=OTHER, or shut down the other with --replace"
+        f"error: a node {NAME} is already running on the ROS master {roscore.env['ROS_MASTER_URI']}: shut it down "
+        "with --replace, or run beside it, with a master of its own: bubblesim run SCENE --isolated"
     ]
     assert roscore.run("rostopic", "echo", "-n", "3", "/simulationTime").count("data:") == 3
     assert first.process.poll() is None

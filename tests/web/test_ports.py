@@ -2,25 +2,33 @@
 """Ports of the window that are in use, and a window without a simulator."""
 
 import os
+import re
 import socket
 from pathlib import Path
 
 from cli_support import bubblesim
 from page_client import Server
-from ros_support import free_port
-from web_support import Node
+from ros_support import built, free_port, start, stop, wait_until
+from web_support import TIMEOUT
 
 PYTHON = Path(f"/proc/{os.getpid()}/comm").read_text().strip()
 
 
 def test_the_window_of_a_node_takes_the_next_port_and_reports_it(tmp_path: Path) -> None:
-    with socket.create_server(("127.0.0.1", 0)) as busy:
+    log = tmp_path / "log"
+    with socket.create_server(("127.0.0.1", 0)) as busy, log.open("w") as errors:
         port = busy.getsockname()[1]
-        with Node(tmp_path, "ball", f"--web={port}") as node:
-            taken = int(node.origin.rpartition(":")[2])
-            assert port < taken < port + 20
-            line = f"warning: port {port} is in use ({PYTHON}, process {os.getpid()}): the window takes {taken}"
-            assert node.find(f"({line.replace('(', '[(]').replace(')', '[)]')})") == line
+        node = start([str(built("sim")), "ball", "--no-ros", f"--web={port}"], dict(os.environ), stderr=errors)
+        try:
+            wait_until(lambda: "the window is at" in log.read_text(), "the window", TIMEOUT / 1000)
+            warning, address = log.read_text().splitlines()
+        finally:
+            stop(node)
+    found = re.match(r"info: the window is at http://127.0.0.1:(\d+)/", address)
+    assert found
+    taken = int(found[1])
+    assert port < taken < port + 20
+    assert warning == f"warning: port {port} is in use ({PYTHON}, process {os.getpid()}): the window takes {taken}"
 
 
 def test_a_port_for_view_that_is_in_use_is_an_error_that_names_its_user() -> None:

@@ -56,3 +56,14 @@ def test_the_menu_switches_what_is_shown(tmp_path: Path, show: Show) -> None:
         assert page.page.locator(".menu").is_hidden()
         page.page.keyboard.press("x")
         page.wait("bubblesim.view.overlays.find((e) => e.id === 'frames').layer.object3d.visible")
+
+
+def test_escape_closes_the_menu_and_leaves_the_selection(tmp_path: Path, show: Show) -> None:
+    with Node(tmp_path, "ball", "--paused") as node:
+        page = show(node)
+        page.js("bubblesim.selection.select(bubblesim.scene.byPath('/Ball'))")
+        page.page.click("button[title='What is shown']")
+        page.wait("!document.querySelector('.menu').hidden")
+        page.page.keyboard.press("Escape")
+        page.wait("document.querySelector('.menu').hidden")
+        assert page.js("bubblesim.selection.object.path") == "/Ball"

@@ -66,7 +66,7 @@ def _programs(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[Progra
     """Provide the programs of a test, which end with it."""
     with Programs(tmp_path) as programs:
         yield programs
-    folder: Path | None = request.config.getoption("--keep-failed")
+    folder: Path | None = request.config.getoption("--keep-failed", None)  # a plugin that loads late has none
     if folder is not None and request.node.stash.get(_FAILED, False):
         kept = keep(tmp_path, folder, request.node.name)
         request.node.user_properties.append(("kept", str(kept)))  # also in the file of --junitxml

@@ -67,7 +67,7 @@ std::string other_node_of_this_name() {
   const std::string uri = registered_uri();
   if (uri.empty() || !takes_connections(uri)) return {};
   return "a node " + ros::this_node::getName() + " is already running on the ROS master " + ros::master::getURI() +
-         ": rename this node with __name:=OTHER, or shut down the other with --replace";
+         ": shut it down with --replace, or run beside it, with a master of its own: bubblesim run SCENE --isolated";
 }
 
 void end_other_node_of_this_name() {
