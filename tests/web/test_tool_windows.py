@@ -88,7 +88,7 @@ def test_driving_publishes_velocities_and_stops_with_the_page(roscore: RosCore, 
 
 
 def test_driving_without_a_subscriber_names_the_topics_that_have_one(roscore: RosCore, tmp_path: Path) -> None:
-    with ToolsPage(tmp_path, "tricycle", "--paused", env=roscore.env) as window:
+    with ToolsPage(tmp_path, "tricycle", env=roscore.env) as window:
         wait_until(lambda: "/steering" in roscore.state()["subscribers"], "the script")
         window.show("driving")
         window.page.fill(".driving input >> nth=0", "/cmd_vel")

@@ -11,6 +11,7 @@ from collections import deque
 from typing import Any
 
 from bubblesim.controllers.base_velocity import STANDING, BaseVelocity
+from bubblesim.services.simulation_topics import CONTROLS
 from bubblesim.web.threads import in_thread
 
 _lock = threading.Lock()
@@ -19,7 +20,7 @@ _NUMERIC = {
     *(f"{kind}{bits}" for kind in ("int", "uint") for bits in (8, 16, 32, 64)),
     *("float32", "float64", "bool", "byte", "char", "time", "duration"),
 }
-_COMMON = {"/clock", "/diagnostics", "/rosout", "/rosout_agg", "/tf", "/tf_static"}  # of no robot
+_COMMON = {"/clock", "/diagnostics", "/rosout", "/rosout_agg", "/tf", "/tf_static", *CONTROLS}  # of no robot
 _MOST_FIELDS = 400
 _MOST_SAMPLES = 5000
 _MOST_WATCHED = 64
