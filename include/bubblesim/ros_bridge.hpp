@@ -31,9 +31,9 @@ class RosBridge final : public NodeBridge {
   /// Removes the remappings (`a:=b`, `__name:=`, `__ns:=`, `__master:=`) from the command line. If a master answers
   /// within a second, returns connected. Otherwise prints a line on stderr with the URI and the remedy, and connects as
   /// soon as a master appears. The default of ROS_MASTER_URI is http://localhost:11311. Throws std::invalid_argument
-  /// for an invalid master URI or node name, and for a name that another node on that master has; std::logic_error for
-  /// a second bridge. If a master appears later and another node on it has the name, the bridge reports this once and
-  /// connects when that node has ended.
+  /// for an invalid master URI or node name, for a name that another node on that master has, and, with on_step, for
+  /// another simulator that publishes /clock there; std::logic_error for a second bridge. If a master appears later and
+  /// such a node is on it, the bridge reports this once and connects when that node has ended.
   RosBridge(int& argc, char** argv, RosBridgeOptions options = {});
 
   /// Unregisters everything from the master. Returns within 2 s even if the master is gone or does not respond.

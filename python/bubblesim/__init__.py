@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""An open robot simulator for ROS 1: robots, sensors and worlds that run without a display.
+"""An open robot simulator for ROS 1 and ROS 2: robots, sensors and worlds that run without a display.
 
 >>> import bubblesim
 >>> simulation = bubblesim.Simulation("tricycle", seed=1)

@@ -26,6 +26,13 @@ double parse_speed(const std::string& text) {
   return speed;
 }
 
+/// CLI11 takes negative numbers, too, modulo 2^64.
+bool is_seed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), seed);
+  return parsed.ec == std::errc() && parsed.ptr == text.data() + text.size();
+}
+
 std::pair<std::string, std::filesystem::path> parse_child_script(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
@@ -113,7 +120,9 @@ ParsedOptions parse_options(int argc, char** argv) {
   app.set_version_flag("--version", std::string("bubblesim ") + BUBBLESIM_VERSION);
   app.add_option("SCENE", options.scene,
                  "scene name, or path of an .sdf file; with --remote it may be left to the clients");
-  app.add_option("--seed", options.seed, "random seed (default 0)");
+  app.add_option("--seed", options.seed, "random seed (default 0)")->check([](const std::string& text) {
+    return is_seed(text) ? "" : "expected a whole number from 0 to 18446744073709551615, found '" + text + "'";
+  });
   CLI::Option* until_option =
       app.add_option("--until", until, "end at this simulation time in seconds, or when stopped");
   until_option->check([](const std::string& text) {

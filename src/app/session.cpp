@@ -145,6 +145,11 @@ Session::Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_fir
     simulation_->add(*node.remote_api);
     served_scene_ = std::make_unique<ServedScene>(*node.remote_api, *scripts_, failure);
   }
+  if (is_first && options.remote_port && !options.start && !options.paused) {
+    std::fprintf(
+        stderr,
+        "info: the simulation is stopped until a remote client or ~unpause starts it; --start begins at once\n");
+  }
   counts_use_ = std::make_unique<CountsUse>(node.counts, *scripts_);
   if (is_first && !options.load_state.empty()) load_state(*simulation_, options.load_state);
 }

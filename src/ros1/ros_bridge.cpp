@@ -24,6 +24,7 @@
 #include "master/master_watch.hpp"
 #include "master/names.hpp"
 #include "master/node_name.hpp"
+#include "master/other_clock.hpp"
 #include "master/parameters.hpp"
 #include "master/remote_shutdown.hpp"
 #include "master/use_sim_time.hpp"
@@ -133,7 +134,8 @@ RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
 std::string RosBridge::Impl::refusal() {
   use_sim_time.take();  // also if the node of the launch file is refused
   if (options.replace) end_other_node_of_this_name();
-  return options.replace ? std::string() : other_node_of_this_name();
+  if (const std::string why = options.replace ? "" : other_node_of_this_name(); !why.empty()) return why;
+  return options.on_step ? other_time_on(clock.topic()) : "";  // a node that cannot step is no simulator
 }
 
 void RosBridge::Impl::on_connected() {

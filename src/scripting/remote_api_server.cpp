@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 #include <utility>
 
 #include "python_methods.hpp"
@@ -16,9 +17,14 @@ RemoteApiServer::RemoteApiServer(PythonEngine& engine, const RemoteApiOptions& o
   with_python([&] {
     const py::object server = py::module_::import("bubblesim.remote.server").attr("RemoteServer");
     const py::cpp_function note_clients([this](bool any) { has_clients_ = any; });
-    methods_->bind(server(options.address, options.port, note_clients, py::arg("socket") = options.socket.string(),
-                          py::arg("token") = options.token.string(), py::arg("trusted") = options.trusted,
-                          py::arg("fixed_scene") = options.fixed_scene));
+    try {
+      methods_->bind(server(options.address, options.port, note_clients, py::arg("socket") = options.socket.string(),
+                            py::arg("token") = options.token.string(), py::arg("trusted") = options.trusted,
+                            py::arg("fixed_scene") = options.fixed_scene));
+    } catch (const py::error_already_set& error) {
+      if (!error.matches(PyExc_RuntimeError)) throw;
+      throw std::runtime_error(py::str(error.value()));  // such as a port in use: the user's, not the code's
+    }
   });
 }
 

@@ -55,6 +55,8 @@ def test_scenes_are_listed() -> None:
         ),
         (["ball", "--childscript=/Ball=x.py"], "unknown option --childscript; did you mean --child-script?\nRun with"),
         (["ball", "other"], "unexpected argument 'other'"),
+        (["ball", "--seed", "-3"], "--seed: expected a whole number from 0 to 18446744073709551615, found '-3'"),
+        (["ball", "--seed", "x"], "--seed: expected a whole number"),
         (["ball", "--until", "soon"], "--until"),
         (["ball", "--until", "-1"], "--until"),
         (["ball", "--until", "nan"], "--until"),

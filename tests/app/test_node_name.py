@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from node_support import NAME, Node, run_sim, write
-from ros_support import DEADLINE, RosCore, free_port, ros_environment
+from ros_support import DEADLINE, RosCore, free_port, ros_environment, wait_until
 
 STUCK = """
     import time
@@ -55,18 +55,35 @@ def test_a_second_node_of_the_name_is_refused_in_one_line_and_the_first_goes_on(
     second = run_sim("ball", env=roscore.env)
     assert second.returncode == 2
     assert second.stderr.splitlines() == [
-        f"error: a node {NAME} is already running on the ROS master {roscore.env['ROS_MASTER_URI']}: rename this node "
-        "with __name:=OTHER, or shut down the other with --replace"
+        f"error: a node {NAME} is already running on the ROS master {roscore.env['ROS_MASTER_URI']}: shut it down "
+        "with --replace, or run beside it, with a master of its own: bubblesim run SCENE --isolated"
     ]
     assert roscore.run("rostopic", "echo", "-n", "3", "/simulationTime").count("data:") == 3
     assert first.process.poll() is None
 
 
 def test_a_second_node_of_another_name_runs_beside_it(roscore: RosCore, first: Node, tmp_path: Path) -> None:
-    with Node(roscore.env, tmp_path / "second", "ball", "__name:=other") as second:
+    topics = ["/clock:=/other/clock", "/tf:=/other/tf"]
+    with Node(roscore.env, tmp_path / "second", "ball", "__name:=other", *topics) as second:
         second.wait_until_ready(roscore, "/other")
         assert second.end() == 0
     assert first.process.poll() is None
+
+
+def test_a_second_simulator_does_not_publish_another_time(roscore: RosCore, first: Node) -> None:
+    second = run_sim("ball", "__name:=other", env=roscore.env)
+    assert second.returncode == 2
+    (line,) = second.stderr.splitlines()
+    assert line.startswith(f"error: {NAME} publishes /clock on the ROS master {roscore.env['ROS_MASTER_URI']}")
+    assert "/clock:=/other/clock /tf:=/other/tf" in line
+    assert roscore.state()["publishers"]["/clock"] == [NAME]
+    assert first.process.poll() is None
+
+
+def test_a_node_that_passes_the_time_on_is_no_second_simulator(roscore: RosCore, tmp_path: Path) -> None:
+    with roscore.publishing("/clock", "rosgraph_msgs/Clock", "{clock: {secs: 1}}"):
+        wait_until(lambda: "/clock" in roscore.state()["publishers"], "the publisher")
+        assert run_sim("ball", "--until", "0.2", env=roscore.env).returncode == 0
 
 
 def test_replace_ends_the_first(roscore: RosCore, first: Node, tmp_path: Path) -> None:

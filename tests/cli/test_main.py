@@ -12,7 +12,7 @@ import pytest
 from cli_support import bubblesim
 from ros_support import built
 
-COMMANDS = ["run", "shell", "scenes", "new-scene", "describe", "convert", "api", "test", "doctor"]
+COMMANDS = ["run", "ps", "shell", "scenes", "new-scene", "describe", "convert", "api", "test", "doctor"]
 
 
 def test_help_names_all_commands_and_exit_codes() -> None:
@@ -75,3 +75,9 @@ def test_a_build_that_cannot_be_loaded_is_reported_with_the_cure(tmp_path: Path)
     assert "No module named 'no_such_module'" in run.stderr
     assert "fix: " in run.stderr
     assert "Traceback" not in run.stderr
+
+
+def test_a_command_with_a_typo_is_answered_with_the_nearest_one() -> None:
+    run = bubblesim("rnu", "ball")
+    assert run.returncode == 2
+    assert "there is no command 'rnu'; did you mean run?" in run.stderr

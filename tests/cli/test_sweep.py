@@ -57,6 +57,10 @@ def test_failed_runs_give_exit_code_1(tmp_path: Path) -> None:
         (["mine.py", "--duration", "3"], "are for scenes"),
         (["tricycle", "--duration", "-3"], "must be above 0"),
         (["no_such_scene"], "no_such_scene"),
+        (["tricycle", "--set", "/Tricycel.mass=1"], "/Tricycel.mass: no object matches '/Tricycel'; did you mean /Tri"),
+        (["tricycle", "--set", "/Tricycle.positon=1"], "that can be set; did you mean position?"),
+        (["tricycle", "--measure", "/Tricycle.positon"], "no property 'positon'; did you mean position?"),
+        (["mine.py", "--set", "/Tricycle.positon=1"], "that can be set; did you mean position?"),
     ],
 )
 def test_bad_input_gives_exit_code_2(tmp_path: Path, arguments: list[str], reason: str) -> None:
@@ -64,6 +68,7 @@ def test_bad_input_gives_exit_code_2(tmp_path: Path, arguments: list[str], reaso
     run = bubblesim("sweep", *arguments, cwd=tmp_path)
     assert run.returncode == 2
     assert reason in run.stderr
+    assert run.stdout == "", "no run has begun"
 
 
 @pytest.mark.skipif(importlib.util.find_spec("ray") is not None, reason="Ray is installed")

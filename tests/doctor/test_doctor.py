@@ -5,12 +5,15 @@ import os
 import signal
 import socket
 import subprocess
+import xmlrpc.client
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from cli_support import bubblesim
+from node_support import Node, write
 from ros_support import RosCore, alone_on_port, free_port, ros_environment, start, wait_until
 
 
@@ -168,3 +171,29 @@ def test_a_port_that_a_scene_serves_and_another_has_is_a_warning(terminal: dict[
         if server:
             server.close()
     assert finding(run, "cannot bind port 5000, which the scene tricycle_socket needs")[0] == "warning"
+
+
+def test_two_simulators_on_one_master_are_a_problem(roscore: RosCore, tmp_path: Path) -> None:
+    with Node(roscore.env, tmp_path / "a", "ball") as first:
+        first.wait_until_ready(roscore)
+        with Node(roscore.env, tmp_path / "b", "ball", "__name:=other", "/clock:=/other/clock") as second:
+            second.wait_until_ready(roscore, "/other")
+            assert "simulators on /clock" not in bubblesim("doctor", "ros", env=roscore.env).stdout
+            master: Any = xmlrpc.client.ServerProxy(roscore.env["ROS_MASTER_URI"])
+            api = master.lookupNode("/test", "/other")[2]
+            master.registerPublisher("/other", "/clock", "rosgraph_msgs/Clock", api)
+            try:
+                run = bubblesim("doctor", "ros", env=roscore.env)
+            finally:
+                master.unregisterPublisher("/other", "/clock", api)
+            level, cure = finding(run, "the times of 2 simulators on /clock: /other, /sim_ros_interface")
+            assert (level, run.returncode) == ("problem", 1)
+            assert "bubblesim run SCENE --isolated" in cure
+
+
+def test_another_python_of_the_terminal_is_named(tmp_path: Path, terminal: dict[str, str]) -> None:
+    other = write(tmp_path / "python3", "#!/bin/sh\necho /opt/pyenv\n")
+    other.chmod(0o755)
+    run = bubblesim("doctor", "build", env=terminal, PATH=f"{tmp_path}:{terminal['PATH']}")
+    level, cure = finding(run, f"the terminal's python3 is {other}, not Debian's")
+    assert (level, cure.startswith("export PATH=/usr/bin:$PATH")) == ("warning", True)

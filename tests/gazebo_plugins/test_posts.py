@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from bubblesim.geometry.rotations import matrix
 from ros_peer import Message, Peer
 
 WALL = 2.0  # m ahead of the sensors
@@ -150,3 +151,16 @@ def test_a_sensor_publishes_itself_on_its_own_topic(peer: Peer) -> None:
     field = peer.next("/own/field", "sensor_msgs/MagneticField")["magnetic_field"]
     assert [field[axis] for axis in "xyz"] == pytest.approx([5.5645e-6, 22.8758e-6, -42.3884e-6])
     assert peer.next("/own/camera_info", "sensor_msgs/CameraInfo")["height"] == 6
+
+
+def test_frames_of_sensors_are_published_in_those_of_their_links(peer: Peer) -> None:
+    message = peer.next("/tf_static", "tf2_msgs/TFMessage")
+    frames = {each["child_frame_id"]: each for each in message["transforms"]}
+    assert set(frames) == {"sonar", "eye_optical"}
+    sonar, eye = (frames[name]["transform"] for name in ("sonar", "eye_optical"))
+    assert {each["header"]["frame_id"] for each in frames.values()} == {"head"}
+    assert [sonar["rotation"][axis] for axis in "xyzw"] == pytest.approx([0, 0, 1, 0], abs=1e-6)  # half a turn
+    assert [eye["translation"][axis] for axis in "xyz"] == pytest.approx([0.1, 0.2, 0.3])
+    # z of the optical frame is x of the link, x is -y, y is -z (REP 103).
+    columns = np.array(matrix([eye["rotation"][axis] for axis in "xyzw"])).T
+    np.testing.assert_allclose(columns, [[0, -1, 0], [0, 0, -1], [1, 0, 0]], atol=1e-9)

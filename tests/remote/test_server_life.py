@@ -8,7 +8,7 @@ import zmq
 
 from node_support import run_sim
 from remote_support import RemoteNode
-from ros_support import DEADLINE
+from ros_support import DEADLINE, free_port, wait_until
 
 
 def test_the_end_of_the_node_is_reported_to_those_who_wait(tmp_path: Path) -> None:
@@ -33,7 +33,18 @@ def test_the_end_of_the_node_is_reported_to_those_who_wait(tmp_path: Path) -> No
 def test_an_address_in_use_is_an_error(node: RemoteNode) -> None:
     run = run_sim("ball", "--no-ros", f"--remote={node.port}")
     assert run.returncode == 2
-    assert f"cannot listen on 127.0.0.1:{node.port}: Address already in use; another port: --remote=PORT" in run.stderr
+    assert run.stderr.splitlines() == [
+        f"error: cannot listen on 127.0.0.1:{node.port}: Address already in use (sim, process {node.process.pid}); "
+        "another port: --remote=PORT"
+    ]
+
+
+def test_a_simulation_that_waits_for_a_client_is_announced(tmp_path: Path) -> None:
+    waits = "info: the simulation is stopped until a remote client or ~unpause starts it; --start begins at once\n"
+    with RemoteNode(tmp_path, "--until", "1") as node:
+        wait_until(lambda: waits in node.output, "the line")
+    started = run_sim("ball", "--no-ros", f"--remote={free_port()}", "--start", "--until", "0.1", "--speed", "max")
+    assert (started.returncode, waits in started.stderr) == (0, False)
 
 
 def test_an_open_address_is_warned_of(tmp_path: Path) -> None:

@@ -75,3 +75,82 @@ def test_the_program_runs() -> None:
     program = REPOSITORY / "scripts" / "check"
     run = subprocess.run(["python3", program, "ball"], capture_output=True, text=True, check=True)
     assert run.stdout == "ball: fine\n"
+
+
+TURNED = """\
+<sdf version="1.9">
+  <model name="Crate">
+    <link name="link">
+      <pose{attributes}>0 0 {radius} 0 0 90</pose>
+      <inertial><mass>2</mass></inertial>
+      <collision name="ball"><geometry><sphere><radius>{radius}</radius></sphere></geometry></collision>
+    </link>
+  </model>
+</sdf>
+"""
+
+
+def test_an_angle_of_more_than_a_turn_is_asked_about(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    file = written(tmp_path, TURNED.format(attributes="", radius=0.2))
+    assert main([file]) == 0
+    output, warnings = capfd.readouterr()
+    assert warnings == (
+        f"warning: {file}:4: <pose> has a yaw of 90 rad, more than a turn; 90 degrees are 1.5708\n"  # pi / 2
+    )
+    assert output == f"{file}: 1 warning\n"
+    for attributes in (' degrees="true"', ' rotation_format="quat_xyzw"'):
+        text = TURNED.format(attributes=attributes, radius=0.2)
+        assert main([written(tmp_path, text.replace("0 0 90", "0 0 0 1") if "quat" in text else text)]) == 0
+        assert capfd.readouterr().err == ""
+
+
+def test_an_angle_of_a_urdf_file_is_asked_about(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    robot = tmp_path / "robot.urdf"
+    robot.write_text(
+        '<robot name="r"><link name="a"/><link name="b"/>\n<joint name="j" type="fixed"><parent link="a"/>'
+        '<child link="b"/>\n<origin xyz="0 0 1" rpy="45 0 0"/></joint></robot>\n'
+    )
+    main([str(robot)])
+    assert f"warning: {robot}:3: rpy of <origin> has a roll of 45 rad" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize(("radius", "asked"), [(150.0, True), (5.0, False)])
+def test_a_large_model_almost_without_mass_is_asked_about(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], radius: float, asked: bool
+) -> None:
+    main([written(tmp_path, TURNED.format(attributes=' degrees="true"', radius=radius))])
+    warned = "/Crate: it is about 300 m large and has a mass of 2 kg; lengths are in metres" in capfd.readouterr().err
+    assert warned is asked
+
+
+SENSOR = """\
+<sdf version="1.9" xmlns:bubblesim="https://bubblesim">
+  <model name="Post">
+    <static>true</static>
+    <link name="base">
+      <sensor name="eye" type="{kind}"><bubblesim:topic>/eye</bubblesim:topic>{more}</sensor>
+    </link>
+  </model>
+</sdf>
+"""
+FRAME = "<bubblesim:frame>eye</bubblesim:frame>"
+
+
+@pytest.mark.parametrize(
+    ("kind", "more", "why"),
+    [
+        ("imu", "<pose>0 0.3 0.4 0 0 0</pose>", "the sensor is 0.5 m from it"),  # 3, 4, 5
+        ("imu", "<pose>0 0 0 0 0 1.5</pose>", "the sensor is turned by 1.5 rad"),
+        ("imu", f"<pose>0 0.3 0.4 0 0 0</pose>{FRAME}", ""),
+        ("imu", "", ""),
+        ("camera", "", "images have an optical frame, z forward (REP 103)"),
+        ("camera", FRAME, ""),
+    ],
+)
+def test_a_frame_in_which_a_sensor_does_not_measure_is_warned_of(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], kind: str, more: str, why: str
+) -> None:
+    assert main([written(tmp_path, SENSOR.format(kind=kind, more=more))]) == 0
+    cure = "<bubblesim:frame>eye</bubblesim:frame> gives it a frame of its own"
+    line = f"warning: /Post/base/eye: /eye is in the frame base, but {why}: {cure}\n"
+    assert capfd.readouterr().err == (line if why else "")

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from node_support import Node
 from ros_support import DEADLINE, SUPPORT, RosCore, start, stop_launch, wait_until
 
 # Heights of the frames from the robots' dimensions, metres.
@@ -100,6 +101,22 @@ def test_a_second_simulator_is_refused_before_its_nodes_replace_those_of_the_fir
         assert {name: roscore.pid_of(name) for name in helpers} == before
     finally:
         stop_launch(launched)
+
+
+def test_a_simulator_of_any_name_is_found_before_a_launch(roscore: RosCore, tmp_path: Path) -> None:
+    with Node(roscore.env, tmp_path / "log", "ball", "__name:=mine") as node:
+        node.wait_until_ready(roscore, "/mine")
+        run = subprocess.run(
+            ["rosrun", "bubblesim", "before_launch"],
+            env=roscore.env,
+            capture_output=True,
+            text=True,
+            timeout=2 * DEADLINE,
+            check=False,
+        )
+    assert run.returncode == 1
+    assert "error: a simulator runs already as node /mine at" in run.stderr
+    assert "rosnode kill /mine" in run.stderr
 
 
 def test_programs_that_were_not_built_are_named_with_the_cure() -> None:

@@ -168,3 +168,19 @@ def test_a_thread_that_never_ends_does_not_keep_the_node(tmp_path: Path) -> None
     run = run_script(tmp_path, code)
     assert (run.stdout, run.returncode) == ("cleanup\n", 0)
     assert run.stderr == "warning: threads of scripts did not end: waits\n"
+
+
+def test_an_attribute_of_self_that_is_not_set_is_named_with_the_nearest_one(tmp_path: Path) -> None:
+    code = "def sysCall_init(): self.ball = 1\ndef sysCall_actuation(): print(self.bal)\n"
+    lines = run_script(tmp_path, code).stderr.splitlines()
+    assert lines[0].startswith(f"error: child script of /Ball failed in sysCall_actuation ({tmp_path}/script.py:2)")
+    assert lines[-1] == "AttributeError: self.bal is not set in this script; did you mean self.ball?"
+    asks = "def sysCall_init(): print(hasattr(self, 'b'), getattr(self, 'b', 5))\n"
+    assert run_script(tmp_path, asks).stdout == "False 5\n"
+
+
+def test_a_script_in_another_language_is_named(tmp_path: Path) -> None:
+    run = run_script(tmp_path, "function sysCall_init() {}\n", name="drive.js")
+    assert run.returncode == 3
+    assert "drive.js:1: JavaScript does not run here: scripts are written in Python (.py) or Lua (.lua)" in run.stderr
+    assert run_script(tmp_path, "#python\ndef sysCall_init(): print('runs')\n", name="drive.js").stdout == "runs\n"

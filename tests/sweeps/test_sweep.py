@@ -149,7 +149,7 @@ def test_the_journal_of_another_program_is_refused(tmp_path: Path) -> None:
     first = program(tmp_path, "def run(run):\n    return {'a': 1}\n")
     run_sweep(first, tasks_of([0], {}), LocalWorkers(first, 1), journal)
     second = program(tmp_path, "def run(run):\n    return {'a': 2}\n")
-    with pytest.raises(SweepError, match=r"another version of the program.*--fresh"):
+    with pytest.raises(SweepError, match=r"before a change of the text of .*program.py.*--fresh"):
         run_sweep(second, tasks_of([0], {}), LocalWorkers(second, 1), journal)
     assert run_sweep(second, tasks_of([0], {}), LocalWorkers(second, 1), journal, fresh=True) == [{"seed": 0, "a": 2}]
     lines = journal.read_text().splitlines()

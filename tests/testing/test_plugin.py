@@ -10,9 +10,11 @@ import socket
 import subprocess
 import sys
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 import rosbag
+import yaml
 
 from bubblesim.running.processes import Program, Programs, RunError
 from bubblesim.testing import simulator
@@ -320,3 +322,36 @@ def test_a_missing_pytest_is_named(tmp_path: Path, foreign: Path) -> None:
     run = bubblesim("test", tmp_path / "test_mine.py", env=os.environ | {"VIRTUAL_ENV": str(tmp_path / "venv")})
     assert run.returncode == 2
     assert run.stderr == f"error: {foreign} has no pytest: {foreign} -m pip install pytest\n"
+
+
+FAILS = """\
+    def test_it_stands(sim):
+        tricycle = sim("ball")
+        tricycle.run(1.0)
+        assert tricycle.time == 2.0
+
+    def test_it_passes(sim):
+        sim("ball").run(0.1)
+"""
+
+
+@pytest.mark.parametrize("workflow", ["github.yml", "gitlab.yml"])
+def test_the_command_of_a_workflow_reports_and_keeps_what_failed(tmp_path: Path, workflow: str) -> None:
+    text = (REPOSITORY / "config" / "ci" / workflow).read_text()
+    assert yaml.safe_load(text)
+    command = re.search(r"&& (bubblesim test .*?)\"?$", text, re.MULTILINE)
+    assert command
+    (tmp_path / "tests").mkdir()
+    write(tmp_path / "tests" / "test_mine.py", FAILS)
+    run = bubblesim(*command[1].split()[1:], cwd=tmp_path)
+    assert run.returncode == 1, run.stderr
+    suite = ElementTree.parse(tmp_path / "results.xml").getroot()[0]
+    assert (suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("2", "1", "0")
+    kept = suite.find("./testcase[@name='test_it_stands']/properties/property[@name='kept']")
+    assert kept is not None
+    assert kept.get("value") == str(tmp_path / "failed" / "test_it_stands")
+    assert [entry.name for entry in (tmp_path / "failed").iterdir()] == ["test_it_stands"]
+    with rosbag.Bag(str(tmp_path / "failed" / "test_it_stands" / "run1.bag")) as bag:
+        assert bag.get_message_count("/tf") == 20  # the ball's script publishes its transform in each step of 50 ms
+    plot = (tmp_path / "failed" / "test_it_stands" / "run1.png").read_bytes()
+    assert plot.startswith(b"\x89PNG")

@@ -87,6 +87,23 @@ def test_driving_publishes_velocities_and_stops_with_the_page(roscore: RosCore, 
         wait_until(lambda: velocities()[-1] == [0.0, 0.0], "the robot to be stopped")
 
 
+def test_driving_without_a_subscriber_names_the_topics_that_have_one(roscore: RosCore, tmp_path: Path) -> None:
+    with ToolsPage(tmp_path, "tricycle", env=roscore.env) as window:
+        wait_until(lambda: "/steering" in roscore.state()["subscribers"], "the script")
+        window.show("driving")
+        window.page.fill(".driving input >> nth=0", "/cmd_vel")
+        window.page.click(".drive")
+        notice = window.page.locator(".driving .warning")
+        notice.wait_for()
+        assert notice.inner_text() == "No subscriber on /cmd_vel: nodes subscribe to /speed, /steering."
+        with Peer(roscore, tmp_path / "peer.txt") as peer:
+            peer.received("/cmd_vel", "geometry_msgs/Twist")
+            wait_until(lambda: "/cmd_vel" in roscore.state()["subscribers"], "the peer")
+            for _ in range(2):  # leave the controls, and take them again
+                window.page.click(".drive")
+            window.wait_for("document.querySelector('.driving .warning').hidden")
+
+
 def test_commands_that_come_at_once_are_carried_out_in_their_order(roscore: RosCore, tmp_path: Path) -> None:
     with ToolsPage(tmp_path, "ball", env=roscore.env) as window:
         drives = [f"bubblesim.link.call('server.drive', ['/{topic}', 0.5, 0, 0])" for topic in ("left", "driven")]

@@ -56,3 +56,23 @@ def test_the_menu_switches_what_is_shown(tmp_path: Path, show: Show) -> None:
         assert page.page.locator(".menu").is_hidden()
         page.page.keyboard.press("x")
         page.wait("bubblesim.view.overlays.find((e) => e.id === 'frames').layer.object3d.visible")
+
+
+def test_escape_closes_the_menu_and_leaves_the_selection(tmp_path: Path, show: Show) -> None:
+    with Node(tmp_path, "ball", "--paused") as node:
+        page = show(node)
+        page.js("bubblesim.selection.select(bubblesim.scene.byPath('/Ball'))")
+        page.page.click("button[title='What is shown']")
+        page.wait("!document.querySelector('.menu').hidden")
+        page.page.keyboard.press("Escape")
+        page.wait("document.querySelector('.menu').hidden")
+        assert page.js("bubblesim.selection.object.path") == "/Ball"
+
+
+def test_no_button_is_cut_off_on_a_small_screen(tmp_path: Path, show: Show) -> None:
+    right = "Math.max(...[...document.querySelectorAll('.toolbar button')].map((b) => b.getBoundingClientRect().right))"
+    with Node(tmp_path, "tricycle", "--paused") as node:
+        page = show(node)
+        page.page.set_viewport_size({"width": 1024, "height": 768})
+        page.wait("document.querySelector('.toolbar').clientWidth === 1024")
+        assert page.js(right) <= 1024

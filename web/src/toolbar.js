@@ -115,6 +115,13 @@ export class Toolbar {
     document.addEventListener("pointerdown", (event) => {
       if (!menu.contains(event.target) && !opener.contains(event.target)) menu.hidden = true;
     });
+    const closeByKey = (event) => {
+      if (event.key !== "Escape" || menu.hidden) return;
+      event.stopPropagation(); // the selection stays
+      menu.hidden = true;
+      opener.focus();
+    };
+    document.addEventListener("keydown", closeByKey, true);
     const sides = h(
       "select",
       {

@@ -4,10 +4,12 @@
 from __future__ import annotations
 
 import argparse
+import difflib
 import importlib
 import sys
 from collections.abc import Sequence
 
+from bubblesim.messages.names import did_you_mean
 from bubblesim.running.processes import RunError
 
 _COMMANDS = (
@@ -22,6 +24,7 @@ _COMMANDS = (
     "test",
     "sweep",
     "view",
+    "ps",
     "bridge",
     "compat",
     "doctor",
@@ -42,6 +45,7 @@ Runs robot scenes and helps to write them. Begin with:
   bubblesim test test_mine.py            test a controller in the simulator
   bubblesim sweep mine.py --seeds 0:99   run over seeds and parameters
   bubblesim view                         open the window of a running simulation
+  bubblesim ps                           list your simulators on this machine
   bubblesim bridge                       pass topics between ROS 1 and ROS 2
   bubblesim compat                       list the packages for launch files of Gazebo
   bubblesim doctor                       diagnose problems of ROS or Python"""
@@ -61,6 +65,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     given = list(sys.argv[1:] if arguments is None else arguments)
+    if given[:1] and not given[0].startswith("-") and given[0] not in _COMMANDS:
+        near = did_you_mean(difflib.get_close_matches(given[0], _COMMANDS, n=2))
+        known = "; the commands are " + ", ".join(_COMMANDS)
+        parser.error(f"there is no command '{given[0]}'{near or known}")
     # Add only the requested command if it is known: some commands load slowly.
     for command in given[:1] if given[:1] and given[0] in _COMMANDS else _COMMANDS:
         importlib.import_module(f"bubblesim.cli.{command.replace('-', '_')}").add_parser(commands)

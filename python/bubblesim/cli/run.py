@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import itertools
 import os
 import shlex
 import subprocess
@@ -25,6 +26,7 @@ below, are accepted after the scene's name.
   bubblesim run tricycle                               with a roscore that runs already
   bubblesim run tricycle --roscore --speed 2           with its own roscore, twice as fast as real time
   bubblesim run ./mine.sdf --no-ros --until 10         a scene of your own, 10 s, without ROS
+  bubblesim run tricycle --isolated --web              beside other runs and users of this machine
   bubblesim run robot.xacro wheels:=4 --roscore        with an argument for xacro
   bubblesim run tricycle --roscore --controller "rosrun bubblesim tricycle_avoid.py" --until 60 --plot path.png"""
 
@@ -45,6 +47,11 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("-h", "--help", action=_Help, nargs=0, help="show this help and the options of the node")
     parser.add_argument("--roscore", action="store_true", help="start a roscore on simulated time if none is running")
+    parser.add_argument(
+        "--isolated",
+        action="store_true",
+        help="use a roscore, a ROS 2 domain and ports of its own, so that several runs and users share a machine",
+    )
     parser.add_argument("--controller", metavar="COMMAND", type=shlex.split, help="also start this controller")
     parser.add_argument("--plot", metavar="FILE", type=Path, help="plot the robot's path to a .png, .pdf or .svg file")
     parser.set_defaults(command=_run, parser=parser, other_options=[])
@@ -64,12 +71,27 @@ def _run(options: argparse.Namespace) -> int:
     given = options.all_arguments
     if options.other_options and given.index(options.other_options[0]) < given.index(options.scene):
         raise ValueError("the scene comes first: bubblesim run SCENE [option ...]")
+    if options.isolated:
+        _isolate(options)
     node = [str(node_program()), options.scene, *options.other_options]
     os.environ.setdefault("ROS_HOSTNAME", "localhost")  # the machine's host name may not resolve
     if not (options.roscore or options.controller or options.plot):
         sys.stdout.flush()
         os.execv(node[0], node)
     return _run_with_programs(options, node)
+
+
+def _isolate(options: argparse.Namespace) -> None:
+    """Give the run a master, a domain and a port for remote clients of its own, and print how others reach it."""
+    from bubblesim.running.isolation import isolate
+
+    others = options.other_options
+    print(f"info: in other terminals: {isolate()}", file=sys.stderr, flush=True)
+    without_master = "--no-ros" in others or "--ros=2" in others or ("--ros", "2") in itertools.pairwise(others)
+    options.roscore = not without_master
+    for option, value in itertools.pairwise([*others, ""]):
+        if option == "--remote" and not value.isdigit():  # a free port, which the node prints
+            others[others.index(option)] = "--remote=0"
 
 
 def _run_with_programs(options: argparse.Namespace, node: list[str]) -> int:
@@ -124,6 +146,9 @@ class _Path:
 
         self._observer.close()
         if len(self._recording.samples) < 2:
-            raise RunError(f"{self._file} is not written: no robot was published on /tf and /clock")
+            raise RunError(
+                f"{self._file} is not written: no robot was published on /tf and /clock. The scene may have none, or a "
+                "short run may have ended before its topics were found: --speed 10, or a later --until"
+            )
         draw(self._scene, self._recording, self._file)
         print(f"{self._recording.summary()}\npicture            {self._file}", file=sys.stderr, flush=True)

@@ -77,6 +77,7 @@ def _sweep(options: argparse.Namespace) -> int:
         raise SweepError("--set is given twice for the same parameter; list its values: NAME=1,2,3")
     tasks = tasks_of(parse_seeds(options.seeds), parameters)
     program = _program(options)
+    program.check(list(parameters))
     output = options.output or Path(f"{program.name}-sweep.csv")
     write = writer_of(output)
     journal = output.with_name(output.name + ".journal")

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import shutil
 import site
 import subprocess
 import sys
@@ -29,8 +30,24 @@ def check_python() -> Iterator[Finding]:
         yield problem(f"Python {version} ({sys.executable}) is not Debian's", "PATH=/usr/bin:$PATH bubblesim doctor")
     else:
         yield ok(f"Python {version}, {sys.executable}")
+    yield from _check_terminals_python()
     yield core_fault() or ok(f"numpy {np.__version__}")
     yield from _check_users_packages()
+
+
+def _check_terminals_python() -> Iterator[Finding]:
+    """Name another Python that comes first on PATH, as pyenv's or conda's: it lacks Debian's modules of ROS."""
+    first = shutil.which("python3")
+    if first is None:
+        return
+    found = subprocess.run(
+        [first, "-c", "import sys; print(sys.base_prefix)"], capture_output=True, text=True, check=False
+    )
+    if found.stdout.strip() not in ("", "/usr"):
+        yield warning(
+            f"the terminal's python3 is {first}, not Debian's: your scripts do not find rospy and bubblesim with it",
+            "export PATH=/usr/bin:$PATH, or start scripts with /usr/bin/python3",
+        )
 
 
 def _check_users_packages() -> Iterator[Finding]:

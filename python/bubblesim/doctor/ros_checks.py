@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from bubblesim.doctor.finding import Finding, ok, problem, warning
+from bubblesim.program.simulators import simulators
 
 _CALLER = "/bubblesim_doctor"
 _TIMEOUT = 5.0  # s, for a master and a node, also on a busy machine
@@ -68,7 +69,14 @@ def check_master() -> Iterator[Finding]:
 
 
 def _check_clock(master: Any) -> Iterator[Finding]:
-    publishers = dict(_call(master.getSystemState)[0])
+    state = _call(master.getSystemState)
+    publishers = dict(state[0])
+    running = [node for node in simulators(state) if _responds(master, node)]
+    if len(running) > 1:
+        yield problem(
+            f"nodes receive the times of {len(running)} simulators on /clock: {', '.join(running)}",
+            f"rosnode kill {running[-1]}, and run it with a master of its own: bubblesim run SCENE --isolated",
+        )
     if not _call(master.hasParam, "/use_sim_time") or not _call(master.getParam, "/use_sim_time"):
         return
     if "/clock" in publishers:

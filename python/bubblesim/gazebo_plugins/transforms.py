@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Transforms of plugins on /tf, one message per step."""
+"""Transforms of plugins: those that change on /tf, one message per step, and fixed ones on /tf_static."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Any
 
+from bubblesim._core import Qos
 from bubblesim._core.reading_messages import Transform, transforms
 
 _QUEUE_SIZE = 100
@@ -24,6 +25,9 @@ class Transforms:
         self._bridge = bridge
         self._publisher: int | None = None
         self._waiting: list[Any] = []
+        self._fixed: dict[str, Any] = {}  # by child frame
+        self._fixed_publisher: int | None = None
+        self._fixed_is_new = False
 
     def add(self, header: Any, child: str, pose: Sequence[float]) -> None:
         """Add the pose (x, y, z, qx, qy, qz, qw) of the frame ``child`` in the frame of the header."""
@@ -32,8 +36,24 @@ class Transforms:
         if is_needed(self._bridge, self._publisher):
             self._waiting.append(Transform(header, child, pose))
 
+    def fix(self, header: Any, child: str, pose: Sequence[float]) -> None:
+        """Publish the constant pose (x, y, z, qx, qy, qz, qw) of ``child``, also to nodes that subscribe later."""
+        self._fixed[child] = Transform(header, child, pose)
+        self._fixed_is_new = True
+
+    def release(self, child: str) -> None:
+        """Publish a fixed frame no more; nodes that know it keep it."""
+        self._fixed_is_new = self._fixed.pop(child, None) is not None or self._fixed_is_new
+
     def publish(self) -> None:
         """Publish the transforms of this step."""
+        if self._fixed_is_new:
+            self._fixed_is_new = False
+            if self._fixed_publisher is None:
+                qos = Qos(1, transient_local=True)
+                self._fixed_publisher = int(self._bridge.advertise("/tf_static", "tf2_msgs/TFMessage", qos))
+            # All of them: the topic keeps its last message only.
+            self._bridge.publish(self._fixed_publisher, transforms(list(self._fixed.values())))
         if self._waiting:
             self._bridge.publish(self._publisher, transforms(self._waiting))
             self._waiting = []

@@ -8,7 +8,7 @@ import sys
 
 import zmq
 
-from bubblesim.program.addresses import is_loopback
+from bubblesim.program.addresses import is_loopback, user_of_port
 from bubblesim.program.output import write_line
 from bubblesim.remote import protocol
 
@@ -52,6 +52,8 @@ def _bind(socket: zmq.Socket[bytes], address: str, port: int | None, path: str) 
             socket.bind(f"tcp://{address}:{port or '*'}")
     except zmq.ZMQError as error:
         reason = os.strerror(error.errno or 0)  # error.strerror also has the address in pyzmq 26
+        if error.errno == zmq.EADDRINUSE and port:
+            reason += user_of_port(port)
         raise RuntimeError(f"cannot listen on {where}: {reason}; another port: --remote=PORT") from None
 
 

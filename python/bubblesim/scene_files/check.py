@@ -9,6 +9,8 @@ from collections.abc import Mapping, Sequence
 
 import bubblesim
 from bubblesim.gazebo_plugins.unknown_plugins import report_unknown_plugins
+from bubblesim.scene_files.sensor_frames import report_sensor_frames
+from bubblesim.scene_files.unit_questions import report_unit_questions
 
 DESCRIPTION = """\
 Loads scenes and models (SDFormat, URDF, xacro), runs each for one second of simulated time and prints all problems
@@ -31,6 +33,7 @@ def _findings(scene: str, arguments: Mapping[str, str]) -> tuple[list[str], int]
     try:
         simulation = bubblesim.Simulation(scene, arguments=dict(arguments))
         warnings = len(simulation.scene.warnings) + report_unknown_plugins(simulation)
+        warnings += report_unit_questions(simulation) + report_sensor_frames(simulation)
         models = len(simulation.world.models)
         simulation.step(max(1, round(_SECONDS / simulation.time_step)))
     except bubblesim.SceneError as error:

@@ -12,6 +12,8 @@ from typing import Any
 from bubblesim import _core
 from bubblesim._core import RunState
 
+CONTROLS = ("/startSimulation", "/pauseSimulation", "/stopSimulation", "/enableSyncMode", "/triggerNextStep")
+"""Topics to which the simulator subscribes, whatever the scene."""
 _QUEUE = 10
 _QUEUE_OF_STEPS = 1000  # large, so that nodes can count steps
 _UNLIMITED = 0

@@ -41,7 +41,7 @@ class Journal:
             self._lock()
             if fresh:
                 os.ftruncate(self._descriptor, 0)
-            self._read({"format": _FORMAT, "program": program.name, "digest": program.digest})
+            self._read({"format": _FORMAT, "program": program.name, "digest": program.digest}, program.depends_on)
         except BaseException:
             os.close(self._descriptor)
             raise
@@ -72,7 +72,7 @@ class Journal:
         except BlockingIOError as error:
             raise SweepError(f"{self.file} is in use by another sweep; choose another --output") from error
 
-    def _read(self, header: Mapping[str, str]) -> None:
+    def _read(self, header: Mapping[str, str], depends_on: str) -> None:
         text = self._content()
         whole = text.rfind(b"\n") + 1
         if whole < len(text):
@@ -83,10 +83,13 @@ class Journal:
             return
         found = self._parsed(lines[0], 1)
         if found != header:
-            what = (
-                "was written by another version of the program" if found.get("format") == _FORMAT else "is no journal"
-            )
-            raise SweepError(f"{self.file} {what}; choose another --output, or start again with --fresh")
+            if found.get("format") != _FORMAT:
+                what = "is no journal"
+            elif found.get("program") != header["program"]:
+                what = f"has runs of {found.get('program')}, not of {header['program']}"
+            else:
+                what = f"has runs from before a change of {depends_on}"
+            raise SweepError(f"{self.file} {what}; choose another --output, or repeat all runs with --fresh")
         for number, line in enumerate(lines[1:], 2):
             entry = self._parsed(line, number)
             try:

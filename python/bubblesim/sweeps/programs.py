@@ -3,18 +3,20 @@
 
 from __future__ import annotations
 
+import difflib
 import functools
 import hashlib
 import math
 import sys
 import traceback
 import types
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
 import bubblesim
+from bubblesim.messages.names import did_you_mean
 from bubblesim.sweeps.tasks import Outcome, Result, SweepError, Task, Value
 
 _MODULE = "bubblesim_sweep_program"  # name of the module of a Python file
@@ -53,8 +55,15 @@ class Program(Protocol):
     def digest(self) -> str:
         """Return a hash of all that the results depend on, apart from seed and parameters."""
 
+    @property
+    def depends_on(self) -> str:
+        """Return what the digest is of, for messages."""
+
     def load(self) -> Callable[[Run], Mapping[str, Any]]:
         """Return the function of a run. Raise SweepError if there is none."""
+
+    def check(self, names: Sequence[str]) -> None:
+        """Check the names of parameters, as far as that is possible before a run. Raise SweepError."""
 
 
 @dataclass(frozen=True)
@@ -81,6 +90,17 @@ class FileProgram:
     def digest(self) -> str:
         """Return a hash of the text: modules that it imports are not part of it."""
         return hashlib.sha256(self.text.encode()).hexdigest()
+
+    @property
+    def depends_on(self) -> str:
+        """Return what the digest is of."""
+        return f"the text of {self.file}"
+
+    def check(self, names: Sequence[str]) -> None:
+        """Check the properties; the file decides which objects there are."""
+        for name in names:
+            if name.startswith("/"):
+                _require_settable(name, split_name(name)[1])
 
     def load(self) -> Callable[[Run], Mapping[str, Any]]:
         """Execute the file; modules beside it can be imported."""
@@ -118,6 +138,23 @@ class SceneProgram:
         """Return a hash of the scene's file, the duration and the names: included models are not part of it."""
         text = _scene(self.scene).file.read_bytes()
         return hashlib.sha256(text + repr((self.duration, self.measured)).encode()).hexdigest()
+
+    @property
+    def depends_on(self) -> str:
+        """Return what the digest is of."""
+        return f"the file of the scene {self.scene}, --duration and --measure"
+
+    def check(self, names: Sequence[str]) -> None:
+        """Check objects and properties."""
+        simulation = bubblesim.Simulation(_scene(self.scene)) if names else None
+        for name in names:
+            path, property_name = split_name(name)
+            _require_settable(name, property_name)
+            try:
+                if simulation is not None:
+                    simulation.object(path)
+            except LookupError as error:
+                raise SweepError(f"{name}: {error}") from error
 
     def load(self) -> Callable[[Run], Mapping[str, Any]]:
         """Load the scene and check the names."""
@@ -167,7 +204,14 @@ def _require_settable(name: str, property_name: str) -> None:
     found = vars(bubblesim.Object).get(property_name)
     if getattr(found, "fset", None) is None:
         settable = sorted(key for key, value in vars(bubblesim.Object).items() if getattr(value, "fset", None))
-        raise SweepError(f"{name}: objects have no property {property_name!r} that can be set, only {settable}")
+        raise SweepError(
+            f"{name}: objects have no property {property_name!r} that can be set{_one_of(property_name, settable)}"
+        )
+
+
+def _one_of(name: str, known: Sequence[str]) -> str:
+    near = difflib.get_close_matches(name, known, n=1)
+    return did_you_mean(near) if near else f"; they have {', '.join(known)}"
 
 
 def _measure(simulation: bubblesim.Simulation, name: str) -> dict[str, Result]:
@@ -175,7 +219,7 @@ def _measure(simulation: bubblesim.Simulation, name: str) -> dict[str, Result]:
     path, property_name = split_name(name)
     if not isinstance(getattr(bubblesim.Object, property_name, None), property):
         names = sorted(key for key, value in vars(bubblesim.Object).items() if isinstance(value, property))
-        raise SweepError(f"{name}: objects have no property {property_name!r}, only {names}")
+        raise SweepError(f"{name}: objects have no property {property_name!r}{_one_of(property_name, names)}")
     value = getattr(simulation.object(path), property_name)
     if getattr(value, "shape", None) in ((3,), (4,)):
         return {f"{name}.{axis}": number for axis, number in zip("xyzw", value.tolist(), strict=False)}

@@ -2,6 +2,8 @@
 """Pytest fixtures: `ros_master`, `controller` and `sim`.
 
 ``bubblesim test`` loads them; for plain pytest, add to conftest.py: pytest_plugins = ["bubblesim.testing.plugin"].
+With ``--keep-failed FOLDER``, what a failed test leaves is kept for those who did not see it run, such as an artifact
+of a CI: the bags, the logs of its programs, and a plot of the robot's path.
 """
 
 from __future__ import annotations
@@ -13,10 +15,12 @@ import signal
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from bubblesim.running.processes import Program, Programs
+from bubblesim.testing.kept_files import keep
 from bubblesim.testing.master import Master, start_master
 from bubblesim.testing.simulator import Simulator
 
@@ -37,11 +41,35 @@ StartController = Callable[..., Program]
 StartSimulator = Callable[..., Simulator]
 
 
+_FAILED = pytest.StashKey[bool]()
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the option of the plugin."""
+    parser.addoption(
+        "--keep-failed",
+        metavar="FOLDER",
+        type=Path,
+        help="keep the bags and logs of failed tests in FOLDER/TEST, with a plot of the robot's path",
+    )
+
+
+@pytest.hookimpl(hookwrapper=True)  # type: ignore[untyped-decorator]  # by pytest 7
+def pytest_runtest_makereport(item: pytest.Item) -> Iterator[None]:
+    """Note that a test has failed; its fixtures end later."""
+    outcome: Any = yield
+    item.stash[_FAILED] = item.stash.get(_FAILED, False) or outcome.get_result().failed
+
+
 @pytest.fixture
-def _programs(tmp_path: Path) -> Iterator[Programs]:
+def _programs(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[Programs]:
     """Provide the programs of a test, which end with it."""
     with Programs(tmp_path) as programs:
         yield programs
+    folder: Path | None = request.config.getoption("--keep-failed", None)  # a plugin that loads late has none
+    if folder is not None and request.node.stash.get(_FAILED, False):
+        kept = keep(tmp_path, folder, request.node.name)
+        request.node.user_properties.append(("kept", str(kept)))  # also in the file of --junitxml
 
 
 @pytest.fixture

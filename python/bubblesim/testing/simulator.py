@@ -48,6 +48,7 @@ class Simulator:
         """
         self.time = 0.0
         self.bag = bag
+        bag.with_suffix(".scene").write_text(scene)  # over which its path is drawn
         self._programs = programs
         self._time_step = 0.0  # s; unknown before the first step
         steps = [argument for topic in lockstep for argument in ("--lockstep", topic)]

@@ -6,9 +6,11 @@ from __future__ import annotations
 import argparse
 import asyncio
 import errno
+import getpass
 import os
 import shlex
 import signal
+import socket
 import sys
 import webbrowser
 from collections.abc import Callable
@@ -16,7 +18,7 @@ from pathlib import Path
 
 from aiohttp import web
 
-from bubblesim.program.addresses import is_loopback
+from bubblesim.program.addresses import is_loopback, user_of_port
 from bubblesim.program.output import write_line
 from bubblesim.running.places import page_folder
 from bubblesim.web.access import Access
@@ -69,8 +71,26 @@ def serve(options: argparse.Namespace) -> int:
     """Run the server with the given arguments."""
     folder = page_folder()
     limit_log()
+    if options.until_closed is None:
+        _warn_without_simulator(options.remote)
     asyncio.run(_serve(options, folder))
     return 0
+
+
+def _warn_without_simulator(place: str) -> None:
+    """Report that no simulator listens on a port of this machine, or on the path of a socket; the window waits."""
+    try:
+        if place.isdigit():
+            socket.create_connection(("127.0.0.1", int(place)), 1.0).close()
+        else:
+            with socket.socket(socket.AF_UNIX) as probe:
+                probe.connect(place)
+    except (OSError, OverflowError):
+        where = f"port {place}" if place.isdigit() else place
+        start = "bubblesim run SCENE --remote" + (f"={place}" if place.isdigit() and place != "23000" else "")
+        write_line(
+            sys.stderr, f"warning: no simulator listens on {where}: the window waits for one; to start one: {start}"
+        )
 
 
 async def _serve(options: argparse.Namespace, folder: Path) -> None:
@@ -97,7 +117,10 @@ async def _serve(options: argparse.Namespace, folder: Path) -> None:
     application.router.add_get("/socket", page)
     application.router.add_static("/", folder)
     await runner.setup()
-    ports = [options.port] if options.port is not None else list(range(PORT, PORT + _TRIES))
+    first = PORT if options.port is None else options.port
+    # The window of a node that runs takes the next port; for a user who asked for one here, this is an error.
+    tries = 1 if options.port is not None and options.until_closed is None else _TRIES
+    ports = list(range(first, first + tries))
     try:
         assert runner.server is not None
         make_protocol = runner.server
@@ -105,9 +128,13 @@ async def _serve(options: argparse.Namespace, folder: Path) -> None:
     except OSError as error:
         await runner.cleanup()
         raise SystemExit(
-            f"error: the window cannot listen on {options.address}:{ports[0]}: {error.strerror}; "
-            "another port: --web=PORT"
+            f"error: the window cannot listen on {options.address}:{ports[0]}: {_reason(error, ports[0])}; "
+            f"another port: {'--port PORT' if options.until_closed is None else '--web=PORT'}"
         ) from None
+    if options.port is not None and port != options.port:
+        write_line(
+            sys.stderr, f"warning: port {options.port} is in use{user_of_port(options.port)}: the window takes {port}"
+        )
     access.port = port
     following = asyncio.create_task(hub.run())
     file = _show_address(options, access)
@@ -124,6 +151,11 @@ async def _serve(options: argparse.Namespace, folder: Path) -> None:
     await hub.close()
 
 
+def _reason(error: OSError, port: int) -> str:
+    # asyncio's strerror repeats the address, and is in lower case.
+    return os.strerror(error.errno or 0) + (user_of_port(port) if error.errno == errno.EADDRINUSE else "")
+
+
 def _show_address(options: argparse.Namespace, access: Access) -> Path | None:
     """Print the address, and write it to a file, which is returned. A log gets it without the token."""
     file = None
@@ -138,11 +170,19 @@ def _show_address(options: argparse.Namespace, access: Access) -> Path | None:
     if not sys.stderr.isatty():
         shown = f"{access.public_address} {hint}"
     write_line(sys.stderr, f"info: the window is at {shown}")
+    if is_loopback(options.address) and (tunnel := _tunnel(access.port)):
+        write_line(sys.stderr, f"info: on your own machine, before you open it: {tunnel}")
     if not is_loopback(options.address):
         write_line(sys.stderr, f"warning: all who reach {options.address} and have the token can use the window")
     if options.browser and os.environ.get("DISPLAY") and file is not None:
         webbrowser.open(file.as_uri())  # the command line of a browser does not show the token
     return file
+
+
+def _tunnel(port: int) -> str:
+    """Return the command by which a user who came over ssh reaches a port here; empty for others."""
+    connection = os.environ.get("SSH_CONNECTION", "").split()  # the client's address and port, the server's
+    return f"ssh -L {port}:127.0.0.1:{port} {getpass.getuser()}@{connection[2]}" if len(connection) == 4 else ""
 
 
 def _node_address(place: str) -> str:

@@ -11,6 +11,7 @@ from collections import deque
 from typing import Any
 
 from bubblesim.controllers.base_velocity import STANDING, BaseVelocity
+from bubblesim.services.simulation_topics import CONTROLS
 from bubblesim.web.threads import in_thread
 
 _lock = threading.Lock()
@@ -19,6 +20,7 @@ _NUMERIC = {
     *(f"{kind}{bits}" for kind in ("int", "uint") for bits in (8, 16, 32, 64)),
     *("float32", "float64", "bool", "byte", "char", "time", "duration"),
 }
+_COMMON = {"/clock", "/diagnostics", "/rosout", "/rosout_agg", "/tf", "/tf_static", *CONTROLS}  # of no robot
 _MOST_FIELDS = 400
 _MOST_SAMPLES = 5000
 _MOST_WATCHED = 64
@@ -65,6 +67,22 @@ async def topics(_page: Any) -> list[list[str]]:
         for name, _ in master.getSystemState()[1]:
             known.setdefault(name, types.get(name, "*"))
         return sorted([name, kind] for name, kind in known.items() if kind != "*")
+
+    return await in_thread(ask)
+
+
+async def subscribed(_page: Any) -> list[list[str]]:
+    """Return names and types of the topics on which other nodes listen to commands."""
+
+    def ask() -> list[list[str]]:
+        import rosgraph
+
+        rospy = node()
+        master = rosgraph.Master("/bubblesim_window")
+        types = dict(master.getTopicTypes())
+        own = rospy.get_name()
+        names = (name for name, nodes in master.getSystemState()[1] if set(nodes) - {own} and name not in _COMMON)
+        return sorted([name, types.get(name, "*")] for name in names)
 
     return await in_thread(ask)
 

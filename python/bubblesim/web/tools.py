@@ -47,6 +47,7 @@ _LOOKING: dict[str, Callable[..., Awaitable[Any]]] = {
     "server.readScript": script_files.read,
     "server.run": console.run,  # each of its calls is checked
     "server.topics": ros_topics.topics,
+    "server.subscribed": ros_topics.subscribed,
     "server.topicFields": ros_topics.fields,
     "server.watchTopic": _watch,
     "server.topicSamples": _samples,

@@ -23,9 +23,9 @@ constexpr std::chrono::milliseconds kAnswerTime{1000};
 constexpr std::chrono::milliseconds kTimeToEnd{3000};
 constexpr std::chrono::milliseconds kBetweenLooks{20};
 
-/// The URI of the node with this node's name on the master; empty if there is none.
-std::string registered_uri() {
-  RpcAnswer answer = ask_master("lookupNode", {ros::this_node::getName()});
+/// The URI of a node, by default of that with this node's name, on the master; empty if there is none.
+std::string registered_uri(const std::string& node = ros::this_node::getName()) {
+  RpcAnswer answer = ask_master("lookupNode", {node});
   if (!answer.succeeded || answer.value.getType() != XmlRpc::XmlRpcValue::TypeString) return {};
   return answer.value;
 }
@@ -58,11 +58,16 @@ bool takes_connections(const std::string& uri) {
 
 }  // namespace
 
+bool node_takes_connections(const std::string& node) {
+  const std::string uri = registered_uri(node);
+  return !uri.empty() && takes_connections(uri);
+}
+
 std::string other_node_of_this_name() {
   const std::string uri = registered_uri();
   if (uri.empty() || !takes_connections(uri)) return {};
   return "a node " + ros::this_node::getName() + " is already running on the ROS master " + ros::master::getURI() +
-         ": rename this node with __name:=OTHER, or shut down the other with --replace";
+         ": shut it down with --replace, or run beside it, with a master of its own: bubblesim run SCENE --isolated";
 }
 
 void end_other_node_of_this_name() {

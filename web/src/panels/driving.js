@@ -26,6 +26,7 @@ export const driving = {
     const knob = h("div.knob");
     const stick = h("div.stick", { title: "Drag: forward and back, turn left and right" }, knob);
     const shown = h("p.speeds", "0.00 m/s, 0.00 rad/s");
+    const nobody = h("p.warning", { hidden: true, role: "status" });
     const pressed = new Set();
     let dragged = [0, 0]; // forward, turn
     let active = false;
@@ -78,6 +79,7 @@ export const driving = {
       clearInterval(timer);
       on.textContent = "Take the controls";
       on.classList.remove("on");
+      nobody.hidden = true;
       stick.classList.remove("on");
     };
     const take = async () => {
@@ -87,6 +89,17 @@ export const driving = {
       stick.classList.add("on");
       on.blur();
       timer = setInterval(tick, PERIOD);
+      lookForSubscribers();
+    };
+    // Velocities without a subscriber would move nothing, without a word.
+    const lookForSubscribers = async () => {
+      const topics = await app.link.call("server.subscribed", [], "ros").catch(() => null);
+      const names = (list) => list.map(([name]) => name).join(", ");
+      nobody.hidden = !topics || topics.some(([name]) => name === topic.value);
+      if (nobody.hidden) return;
+      const velocities = topics.filter(([, type]) => /Twist/.test(type));
+      const others = velocities.length ? `velocities are expected on ${names(velocities)}` : topics.length ? `nodes subscribe to ${names(topics)}` : "no node subscribes to any topic";
+      nobody.textContent = `No subscriber on ${topic.value}: ${others}.`;
     };
     on.onclick = () => (active ? leave() : take());
     const isTyping = (event) => event.target.closest?.("input, select, textarea, .cm-editor");
@@ -151,6 +164,7 @@ export const driving = {
       on,
       stick,
       shown,
+      nobody,
       h("p.hint", h("kbd", "W"), " ", h("kbd", "S"), " or ", h("kbd", "↑"), " ", h("kbd", "↓"), " forward and back, ", h("kbd", "A"), " ", h("kbd", "D"), " turn, ", h("kbd", "Q"), " ", h("kbd", "E"), " sideways, ", h("kbd", "Esc"), " leaves."),
       h("label", "Topic", topic, known),
       h("label", "Speed (m/s)", fastest),

@@ -25,7 +25,9 @@ from bubblesim._core.reading_messages import range as range_message
 from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
 from bubblesim.gazebo_plugins.sensors.camera_info import CameraInfo
 from bubblesim.gazebo_plugins.sensors.readings import is_new
+from bubblesim.geometry.poses import multiply
 
+OPTICAL = (0.0, 0.0, 0.0, -0.5, 0.5, -0.5, 0.5)  # of a camera that looks along x: z forward, x right, y down
 _ULTRASOUND = 0  # sensor_msgs/Range
 MakeMessage = Callable[[Any, Any], Any]  # of a header and a reading
 
@@ -44,6 +46,9 @@ class NoPlugin:
 class SensorTopic(Plugin):
     """The message type depends on the sensor type; the frame is the sensor's link unless <bubblesim:frame> is given.
 
+    Such a frame, unless it is a link, is published as a fixed one in that of the link: the sensor's pose, for a camera
+    its optical frame, z forward and x to the right (REP 103).
+
     A sonar publishes a Range, infinite without an echo (REP 117); a lidar of one ring a LaserScan, of several a
     PointCloud2; a camera an Image (a depth camera in metres) and a camera_info; an IMU an Imu; a GPS receiver a
     NavSatFix; an altimeter a PointStamped, whose z is the height above its start; a magnetometer a MagneticField; a
@@ -54,6 +59,7 @@ class SensorTopic(Plugin):
         """Advertise the topics."""
         super().__init__(context)
         self._topic, self._frame = self.place_of_topic()
+        self._publish_own_frame()
         self._info = CameraInfo(self.parameters)
         _, reading = read_sensor(self.simulation, context.owner)
         self._outputs = [
@@ -65,6 +71,18 @@ class SensorTopic(Plugin):
         """Return the sensor's topic and frame."""
         topic, frame, _ = self.world.sensor_topic(self.context.owner)
         return topic, frame or self.world.name(self.world.carrier(self.context.owner))
+
+    def _publish_own_frame(self) -> None:
+        own = self.world.sensor_topic(self.context.owner)[1]
+        links = {self.world.name(link) for link in self.world.parts(self.context.model, "link")}
+        if not own or own in links:
+            return
+        link = self.world.carrier(self.context.owner)
+        pose = self.world.pose_in(self.context.owner, link)
+        if isinstance(read_sensor(self.simulation, self.context.owner)[1], CameraImage):
+            pose = multiply(pose, OPTICAL)
+        self.context.transforms.fix(self.header(self.world.name(link)), own, pose)
+        self.context.endpoints.append(lambda: self.context.transforms.release(own))
 
     def outputs(self, topic: str, reading: Any) -> Iterator[tuple[str, str, MakeMessage]]:
         """Yield the outputs of a kind of reading: topic, type and the function that creates the message."""

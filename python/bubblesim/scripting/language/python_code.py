@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import difflib
 import sys
 import traceback
 from collections.abc import Callable
@@ -10,12 +11,21 @@ from pathlib import Path
 from types import CodeType, ModuleType, SimpleNamespace
 from typing import Any
 
+from bubblesim.messages.names import did_you_mean
 from bubblesim.scripting.language import script_output
 from bubblesim.scripting.language.script_output import Source
 from bubblesim.scripting.language.source import ScriptSourceError, find_file, read_text
 from bubblesim.scripting.threads.script_thread import ScriptThread
 
 _OUR_FOLDER = str(Path(__file__).parents[2])
+
+
+class _Self(SimpleNamespace):
+    """The object `self` of a script, to which its functions give attributes."""
+
+    def __getattr__(self, name: str) -> Any:
+        near = did_you_mean([f"self.{known}" for known in difflib.get_close_matches(name, list(vars(self)), n=2)])
+        raise AttributeError(f"self.{name} is not set in this script{near}")
 
 
 class PythonCode:
@@ -53,7 +63,7 @@ class PythonCode:
         module = ModuleType(name)
         sys.modules[name] = module
         self._globals: dict[str, Any] = module.__dict__
-        self._globals.update(modules, __file__=str(file), self=SimpleNamespace(), require=self._require)
+        self._globals.update(modules, __file__=str(file), self=_Self(), require=self._require)
 
     @property
     def is_confined(self) -> bool:

@@ -5,6 +5,17 @@ from __future__ import annotations
 
 from pathlib import Path
 
+_OTHER_LANGUAGES = {
+    ".js": "JavaScript",
+    ".ts": "TypeScript",
+    ".m": "MATLAB",
+    ".c": "C",
+    ".cpp": "C++",
+    ".java": "Java",
+    ".rb": "Ruby",
+    ".sh": "a shell script",
+}
+
 
 class ScriptSourceError(Exception):
     """A script that cannot be loaded; the text states file and line."""
@@ -34,6 +45,14 @@ def find_file(name: str, folders: list[Path]) -> Path:
 
 
 def is_lua(file: Path, text: str) -> bool:
-    """Return whether a script is written in Lua: by its first line, `#lua` or `#python`, or its extension, `.lua`."""
+    """Return whether a script is written in Lua: by its first line, `#lua` or `#python`, or its extension, `.lua`.
+
+    :raises ScriptSourceError: if the extension is that of another language, and no first line names one of these two.
+    """
     first = text.partition("\n")[0].strip()
+    if first not in ("#lua", "#python") and file.suffix in _OTHER_LANGUAGES:
+        raise ScriptSourceError(
+            f"{file}:1: {_OTHER_LANGUAGES[file.suffix]} does not run here: scripts are written in Python (.py) or Lua "
+            "(.lua); the first line #python or #lua names the language of a file with another extension"
+        )
     return first == "#lua" or (file.suffix == ".lua" and first != "#python")

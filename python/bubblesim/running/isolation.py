@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A ROS master and a ROS 2 domain of a run's own, so that several runs and users share a machine."""
+
+from __future__ import annotations
+
+import os
+import random
+import socket
+from collections.abc import MutableMapping
+
+from bubblesim.running.processes import RunError
+
+_FIRST_PORT = 11400
+_DOMAINS = 101  # of ROS 2: above, its ports are those of outgoing connections on Linux
+
+
+def isolate(environment: MutableMapping[str, str] = os.environ) -> str:
+    """Set ROS_MASTER_URI and ROS_DOMAIN_ID to those of a new number N; return the command that sets them elsewhere.
+
+    The master has port 11400 + N, the domain is N: nobody else on this machine uses the domain while the master runs.
+    A master of another machine is left.
+
+    :raises RunError: if no number is free.
+    """
+    numbers = list(range(1, _DOMAINS + 1))
+    random.shuffle(numbers)  # many users start at once
+    number = next((number for number in numbers if _is_free(_FIRST_PORT + number)), None)
+    if number is None:
+        raise RunError(
+            f"the ports {_FIRST_PORT + 1} to {_FIRST_PORT + _DOMAINS} are all in use: `bubblesim ps` lists runs"
+        )
+    values = {
+        "ROS_MASTER_URI": f"http://localhost:{_FIRST_PORT + number}",
+        "ROS_HOSTNAME": "localhost",
+        "ROS_DOMAIN_ID": str(number),
+    }
+    environment.update(values)
+    return "export " + " ".join(f"{name}={value}" for name, value in values.items())
+
+
+def _is_free(port: int) -> bool:
+    with socket.socket() as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind(("127.0.0.1", port))
+        except OSError:
+            return False
+    return True
