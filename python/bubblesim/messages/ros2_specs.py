@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Loads the definitions of ROS 2's types with their nested types.
 
-ROS 2 is not installed. Most of its types have the fields of ROS 1's; the definitions of the others are in ``ros2/``, those
-of Humble in ``ros2_before_iron/``.
+ROS 2 is not installed. Most of its types have the fields of ROS 1; the definitions of the others are in ``ros2/``,
+those of Humble in ``ros2_before_iron/``.
 """
 
 from __future__ import annotations
