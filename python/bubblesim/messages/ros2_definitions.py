@@ -172,8 +172,10 @@ _STRINGS = re.compile(r"""\s*(?:"((?:[^"\\]|\\.)*)"|'((?:[^'\\]|\\.)*)')\s*(?:,|
 
 def _default(kind: FieldType, text: str) -> bytes:
     """Return the bytes of a default value, `1.5` or `[1, 2]`, which a comment may follow; those of 0 are empty."""
-    if kind.base not in _STRUCT_CODES and kind.base != "string":
-        raise ValueError(f"a default value for a {kind.base} is not supported")
+    if kind.base == "wstring":
+        return b""  # types with it are refused elsewhere
+    if not kind.is_builtin:
+        raise ValueError(f"a {kind.base} has no default value, found '{text}'")
     if kind.is_array:
         if not text.startswith("["):
             raise ValueError(f"expected a list of default values, found '{text}'")
