@@ -21,9 +21,9 @@ void put_given_default(const Field& field, WireBuffer& out) {
   const std::string_view value = field.default_value;
   const bool is_text = field.kind == FieldKind::kString;
   if (field.array == ArrayKind::kVariable) {
-    const std::ptrdiff_t texts = std::count(value.begin(), value.end(), '\0');
+    const std::ptrdiff_t strings = std::count(value.begin(), value.end(), '\0');
     out.put(
-        static_cast<std::uint32_t>(is_text ? static_cast<std::size_t>(texts) : value.size() / wire_size(field.kind)));
+        static_cast<std::uint32_t>(is_text ? static_cast<std::size_t>(strings) : value.size() / wire_size(field.kind)));
   }
   if (!is_text) {
     out.align(alignment(field.kind));

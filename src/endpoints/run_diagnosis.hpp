@@ -9,7 +9,7 @@
 
 namespace bubblesim {
 
-/// What a diagnostic_msgs/DiagnosticStatus says; the levels have its numbers.
+/// The content of a diagnostic_msgs/DiagnosticStatus; the levels have its numbers.
 struct Diagnosis {
   enum Level { kOk = 0, kWarn = 1, kError = 2 };
 

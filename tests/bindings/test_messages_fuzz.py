@@ -22,7 +22,7 @@ NUMBERS = [0, 1, 2, 3, 7, 8, 255, 2**16, 2**24, 2**31 - 1, 2**31, 2**32 - 8, 2**
 
 
 def grown(message: object, chance: random.Random) -> object:
-    """Return a message with elements in its empty arrays and texts, so that there is something to change."""
+    """Return a message with elements in its empty arrays and strings, so that there is something to change."""
     if isinstance(message, dict):
         return {name: grown(value, chance) for name, value in message.items()}
     if isinstance(message, str):

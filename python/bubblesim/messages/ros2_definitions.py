@@ -182,8 +182,8 @@ def _default(kind: FieldType, text: str) -> bytes:
         text = text[1:].rpartition("]")[0]
     if kind.base == "string":
         quoted = [re.sub(r"\\(.)", r"\1", one or other) for one, other in _STRINGS.findall(text)]
-        texts = quoted or [text.partition("#")[0].strip()]
-        return b"".join(each.encode(errors="surrogateescape") + b"\0" for each in texts)
+        strings = quoted or [text.partition("#")[0].strip()]
+        return b"".join(each.encode(errors="surrogateescape") + b"\0" for each in strings)
     values = [_value(kind.base, each, "") for each in text.partition("#")[0].split(",")]
     try:
         packed = struct.pack(f"<{len(values)}{_STRUCT_CODES[kind.base]}", *values)
