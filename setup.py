@@ -11,7 +11,7 @@ setup(
         package_data={
             "bubblesim.scripting.language": ["*.lua"],
             "bubblesim.cli": ["templates/*.in"],
-            "bubblesim.messages": ["ros2/*/*/*"],
+            "bubblesim.messages": ["ros2/*/*/*", "ros2_before_iron/*/*/*"],
             "bubblesim.gym_tasks": ["scenes/*.sdf"],
         },
     )

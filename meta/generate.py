@@ -35,7 +35,7 @@ try:
     from bubblesim.messages.names import split_name
     from bubblesim.messages.packages import build_index
     from bubblesim.messages.ros2_definitions import Ros2Message
-    from bubblesim.messages.ros2_specs import Ros2Specs, without_ros1_only
+    from bubblesim.messages.ros2_specs import Ros2Specs, definitions_before_iron, own_definitions, without_ros1_only
     from bubblesim.messages.specs import Specs, load_list
 except ImportError as error:
     sys.exit(f"{error}; install ros-base-dev and use Debian's Python: cmake -DPython3_EXECUTABLE=/usr/bin/python3")
@@ -95,7 +95,7 @@ def ros2_type_table(specs: Ros2Specs, message: Ros2Message) -> TypeTable:
         type_hash=specs.message_hash(message),
         definition=rules.cpp_string(specs.full_text(message)),
         has_header="false",
-        fields=[rules.ros2_field_row(name, kind) for name, kind in message.fields],
+        fields=[rules.ros2_field_row(name, kind, message.defaults.get(name, b"")) for name, kind in message.fields],
         constants=[rules.ros2_constant_row(*constant) for constant in message.constants],
     )
 
@@ -134,17 +134,18 @@ def all_tables(specs: Any, of_message: Callable[..., TypeTable], of_service: Cal
     return tables
 
 
-def write_tables(ros1: Tables, ros2: Tables, inputs: list[Path], output: Path) -> None:
+def write_tables(ros1: Tables, ros2: Tables, older: Tables, inputs: list[Path], output: Path) -> None:
     """Write all files and remove the files of packages that are no longer needed."""
     output.mkdir(parents=True, exist_ok=True)
     contents: dict[Path, str] = {}
-    for prefix, tables in (("package", ros1), ("ros2_package", ros2)):
+    for prefix, tables in (("package", ros1), ("ros2_package", ros2), ("older_package", older)):
         for package, (messages, services) in tables.items():
             types = messages + [half for service in services for half in (service.request, service.response)]
             context = {"package": package, "types": types, "messages": messages, "services": services}
             contents[output / f"{prefix}_{package}.cpp"] = expand("package.cpp.em", context | {"prefix": prefix})
     contents[output / "all_packages.cpp"] = expand(
-        "all_packages.cpp.em", {"packages": sorted(ros1), "ros2_packages": sorted(ros2)}
+        "all_packages.cpp.em",
+        {"packages": sorted(ros1), "ros2_packages": sorted(ros2), "older_packages": sorted(older)},
     )
     for path, text in contents.items():
         write_if_changed(path, text)
@@ -201,9 +202,12 @@ def main(arguments: list[str]) -> int:
     messages, services = united(messages, more[0]), united(services, more[1])
     load_list(specs.load, messages, "msg", problems)
     load_list(specs.load, services, "srv", problems)
-    ros2 = Ros2Specs(index)
+    ros2 = Ros2Specs(index, own_definitions(before_iron=False))
+    older = Ros2Specs(index, own_definitions(before_iron=True))
     if options.ros2 and not problems:
         load_ros2(ros2, messages, services, problems)
+        for name in definitions_before_iron().names("msg"):
+            older.load(name, "msg")
     for text in (*problems, *(f"warning: {warning}" for warning in warnings)):
         print(text, file=sys.stderr)
     if problems:
@@ -211,10 +215,11 @@ def main(arguments: list[str]) -> int:
     own = [options.messages, options.services, *([options.interfaces] if options.interfaces.is_file() else [])]
     own += [*HERE.glob("*.py"), *HERE.glob("templates/*.em")]
     own += [Path(str(module.__file__)) for name, module in sys.modules.items() if name.startswith("bubblesim.")]
-    inputs = {path.absolute() for path in [*own, *specs.files, *ros2.files, *index.watched]}
+    inputs = {path.absolute() for path in [*own, *specs.files, *ros2.files, *older.files, *index.watched]}
     ros1_tables = all_tables(specs, type_table, service_table)
     ros2_tables = all_tables(ros2, ros2_type_table, ros2_service_table)
-    write_tables(ros1_tables, ros2_tables, sorted(inputs), options.output)
+    older_tables = all_tables(older, ros2_type_table, ros2_service_table)
+    write_tables(ros1_tables, ros2_tables, older_tables, sorted(inputs), options.output)
     return 0
 
 

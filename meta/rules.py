@@ -21,6 +21,7 @@ class FieldRow:
     array: str
     length: int
     message: str
+    default: str = "{}"
 
 
 @dataclass(frozen=True)
@@ -59,7 +60,7 @@ def field_row(name: str, base_type: str, is_array: bool, array_length: int | Non
     )
 
 
-def ros2_field_row(name: str, kind: ros2_definitions.FieldType) -> FieldRow:
+def ros2_field_row(name: str, kind: ros2_definitions.FieldType, default: bytes) -> FieldRow:
     """Return the row of a field of a type of ROS 2."""
     array = "kNone" if not kind.is_array else "kVariable" if kind.length is None or kind.is_bounded else "kFixed"
     builtin = ros2_definitions.KINDS.get(kind.base)
@@ -69,7 +70,13 @@ def ros2_field_row(name: str, kind: ros2_definitions.FieldType) -> FieldRow:
         array=array,
         length=kind.length or 0 if array == "kFixed" else 0,
         message="nullptr" if builtin else cpp_string(kind.base),
+        default=_string_view(default) if default else "{}",
     )
+
+
+def _string_view(data: bytes) -> str:
+    octal = "".join(f"\\{byte:03o}" for byte in data)
+    return f'std::string_view("{octal}", {len(data)})'
 
 
 def ros2_constant_row(name: str, base_type: str, value: bool | int | float | str) -> ConstantRow:

@@ -62,7 +62,7 @@ class Ros2Bridge final : public NodeBridge, public messages::LaterServices {
 
   void publish_clock(double sim_time) override;
   void shutdown_endpoints() override;
-  void publish_diagnostics() override {}
+  void publish_diagnostics() override;
   /// Peers notice by themselves, within the lease of 20 s, when a process is gone.
   bool leave() override { return true; }
   NodeGraph graph() override;

@@ -1,6 +1,7 @@
 @# Context:
 @#   packages       names of the message packages of ROS 1
 @#   ros2_packages  the same of ROS 2; none in a build without it
+@#   older_packages  those whose types had other fields before Iron
 // generated from meta/messages.txt and meta/services.txt, do not edit
 #include "message_tables.hpp"
 
@@ -11,6 +12,9 @@ PackageTable package_@(package)();
 @[end for]@
 @[for package in ros2_packages]@
 PackageTable ros2_package_@(package)();
+@[end for]@
+@[for package in older_packages]@
+PackageTable older_package_@(package)();
 @[end for]@
 
 std::vector<PackageTable> all_packages(RosVersion version) {
@@ -24,6 +28,14 @@ std::vector<PackageTable> all_packages(RosVersion version) {
   return {
 @[for package in packages]@
       package_@(package)(),
+@[end for]@
+  };
+}
+
+std::vector<PackageTable> packages_before_iron() {
+  return {
+@[for package in older_packages]@
+      older_package_@(package)(),
 @[end for]@
   };
 }

@@ -1,6 +1,6 @@
 @# Context:
 @#   package   name of the message package, such as "geometry_msgs"
-@#   prefix    of the name of the function: "package", or "ros2_package" for types of ROS 2
+@#   prefix    of the name of the function: "package", "ros2_package" for types of ROS 2, "older_package" before Iron
 @#   types     list of generate.TypeTable: its messages, then the requests and responses of its services
 @#   messages  the messages in `types`
 @#   services  list of generate.ServiceTable
@@ -14,7 +14,7 @@ namespace {
 @[if type.fields]@
 constexpr FieldRow kFields_@(type.label)[] = {
 @[for row in type.fields]@
-    {@row.name, FieldKind::@row.kind, ArrayKind::@row.array, @row.length, @row.message},
+    {@row.name, FieldKind::@row.kind, ArrayKind::@row.array, @row.length, @row.message, @row.default},
 @[end for]@
 };
 @[end if]@

@@ -10,6 +10,7 @@
 
 #include "bubblesim/ros_bridge.hpp"
 #include "session.hpp"
+#include "shared_reports.hpp"
 #include "stop_signal.hpp"
 
 namespace bubblesim::app {
@@ -34,18 +35,19 @@ NodeBridgeOptions common_options(Node& node) {
   };
   how.on_arrival = [&node] { node.runner.with([](Runner& runner) { return runner.wake(), true; }, false); };
   how.is_ending = stop_requested;
-  how.take_report = [&node] {
-    RunReport report = node.runner.with([](Runner& runner) { return runner.take_report(); }, RunReport());
-    report.script_errors = node.counts.failures();
-    report.disabled_scripts = node.counts.disabled();
-    return report;
-  };
   return how;
 }
 
-RosBridgeOptions ros1_options(Node& node) {
+RunReport take_report(Node& node) {
+  RunReport report = node.runner.with([](Runner& runner) { return runner.take_report(); }, RunReport());
+  report.script_errors = node.counts.failures();
+  report.disabled_scripts = node.counts.disabled();
+  return report;
+}
+
+RosBridgeOptions ros1_options(Node& node, const NodeBridgeOptions& common) {
   RosBridgeOptions how;
-  static_cast<NodeBridgeOptions&>(how) = common_options(node);
+  static_cast<NodeBridgeOptions&>(how) = common;
   how.replace = node.options.replace;
   if (node.options.ros == Ros::kRos1 && has_ros2()) how.without_master = ", or use ROS 2, which needs none: --ros 2";
   how.on_shutdown = [](const std::string& why) {
@@ -67,11 +69,15 @@ std::vector<std::unique_ptr<NodeBridge>> make_bridges(Node& node, int& argc, cha
   int count = static_cast<int>(arguments.size());
   arguments.push_back(nullptr);
   std::vector<std::unique_ptr<NodeBridge>> bridges;
+  const auto reports = std::make_shared<SharedReports>([&node] { return take_report(node); }, 2);
+  NodeBridgeOptions how = common_options(node);
   if (ros == Ros::kRos1 || ros == Ros::kBoth) {
-    bridges.push_back(std::make_unique<RosBridge>(argc, argv, ros1_options(node)));
+    how.take_report = [reports] { return reports->take(0); };
+    bridges.push_back(std::make_unique<RosBridge>(argc, argv, ros1_options(node, how)));
   }
   if (ros == Ros::kRos2 || ros == Ros::kBoth) {
-    bridges.push_back(make_ros2_bridge(count, arguments.data(), common_options(node)));
+    how.take_report = [reports] { return reports->take(1); };
+    bridges.push_back(make_ros2_bridge(count, arguments.data(), how));
   }
   return bridges;
 }

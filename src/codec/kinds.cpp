@@ -16,6 +16,27 @@ constexpr std::array<std::string_view, 15> kNames{"bool",    "int8",   "uint8", 
                                                   "int32",   "uint32", "int64", "uint64",   "float32",
                                                   "float64", "string", "time",  "duration", "message"};
 
+/// In CDR.
+void put_given_default(const Field& field, WireBuffer& out) {
+  const std::string_view value = field.default_value;
+  const bool is_text = field.kind == FieldKind::kString;
+  if (field.array == ArrayKind::kVariable) {
+    const std::ptrdiff_t strings = std::count(value.begin(), value.end(), '\0');
+    out.put(
+        static_cast<std::uint32_t>(is_text ? static_cast<std::size_t>(strings) : value.size() / wire_size(field.kind)));
+  }
+  if (!is_text) {
+    out.align(alignment(field.kind));
+    out.put_bytes(value.data(), value.size());
+    return;
+  }
+  for (std::size_t at = 0; at < value.size();) {
+    const std::size_t end = value.find('\0', at);
+    out.put_string(value.substr(at, end - at));
+    at = end == value.npos ? end : end + 1;
+  }
+}
+
 }  // namespace
 
 std::string_view kind_name(FieldKind kind) { return kNames[static_cast<std::size_t>(kind)]; }
@@ -66,6 +87,7 @@ void put_default(const Field& field, WireBuffer& out) {
     if (size != 0) std::memset(out.extend(size), 0, size);
     return;
   }
+  if (!field.default_value.empty()) return put_given_default(field, out);
   if (field.array == ArrayKind::kVariable) {
     out.put(std::uint32_t{0});
     return;

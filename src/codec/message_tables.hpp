@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "bubblesim/messages/message_type.hpp"
@@ -30,7 +31,8 @@ struct FieldRow {
   FieldKind kind;
   ArrayKind array;
   std::uint32_t fixed_length;
-  const char* message;  ///< name of the nested type, or nullptr
+  const char* message;             ///< name of the nested type, or nullptr
+  std::string_view default_value;  ///< see Field
 };
 
 struct ConstantRow {
@@ -62,5 +64,8 @@ struct PackageTable {
 
 /// Generated: the tables of all packages, nested types' packages included; none of ROS 2 in a build without it.
 std::vector<PackageTable> all_packages(RosVersion version);
+
+/// Generated: the types of which ROS 2 had other fields before Iron.
+std::vector<PackageTable> packages_before_iron();
 
 }  // namespace bubblesim::messages::tables

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <deque>
 #include <map>
 #include <memory>
@@ -65,10 +66,9 @@ std::vector<std::string> sorted_names(const std::deque<T>& types) {
 class Registry {
  public:
   explicit Registry(RosVersion version) : version_(version) {
+    if (version == RosVersion::kRos2 && ros2_is_before_iron()) add_messages(tables::packages_before_iron());
     const std::vector<tables::PackageTable> packages = tables::all_packages(version);
-    for (const auto& package : packages) {
-      for (const auto* row : package.messages) add(*row, messages_);
-    }
+    add_messages(packages);
     for (const auto& package : packages) {
       for (const auto& row : package.services) {
         const MessageType* request = add(*row.request, others_);
@@ -103,11 +103,21 @@ class Registry {
   template <class T>
   using ByName = std::unordered_map<std::string_view, const T*>;
 
+  /// Those of a known name are left out.
+  void add_messages(const std::vector<tables::PackageTable>& packages) {
+    for (const auto& package : packages) {
+      for (const auto* row : package.messages) {
+        if (message_by_name_.count(row->name) == 0) add(*row, messages_);
+      }
+    }
+  }
+
   const MessageType* add(const tables::MessageRow& row, std::deque<MessageType>& types) {
     MessageType& type = *keep({row.name, row.type_hash, row.definition, row.has_header, {}, {}, version_}, types);
     type.fields.reserve(row.fields.count);  // unresolved_ points into it
     for (const auto& field : row.fields) {
-      type.fields.push_back({field.name, field.kind, field.array, field.fixed_length, nullptr, field_key(field.name)});
+      type.fields.push_back({field.name, field.kind, field.array, field.fixed_length, nullptr, field_key(field.name),
+                             std::string(field.default_value)});
       if (field.message != nullptr) unresolved_.emplace_back(&type.fields.back(), field.message);
     }
     for (const auto& constant : row.constants) type.constants.push_back(make_constant(constant));
@@ -201,6 +211,12 @@ const ServiceType& add_service(std::string name, std::string type_hash, MessageT
 std::vector<std::string> message_names(RosVersion version) { return registry(version).message_names(); }
 
 std::vector<std::string> service_names(RosVersion version) { return registry(version).service_names(); }
+
+bool ros2_is_before_iron() {
+  const char* const variable = std::getenv("ROS_DISTRO");
+  const std::string_view distribution = variable != nullptr ? variable : "";
+  return distribution == "humble" || distribution == "galactic" || distribution == "foxy";
+}
 
 std::uint32_t field_key(std::string_view name) {
   static std::mutex mutex;

@@ -13,6 +13,7 @@
 #include "bubblesim/messages/registry.hpp"
 #include "dds/environment.hpp"
 #include "dds/participant.hpp"
+#include "graph/diagnostics.hpp"
 #include "graph/graph_reader.hpp"
 #include "graph/names.hpp"
 #include "graph/node_announcement.hpp"
@@ -89,6 +90,8 @@ struct Ros2Bridge::Impl {
 
   mutable std::mutex urgent_mutex;  // guards urgent
   std::vector<std::function<bool()>> urgent;
+
+  std::unique_ptr<ros2::Diagnostics> diagnostics;  // null without take_report
 };
 
 Ros2Bridge::Impl::Impl(int& argc, char** argv, NodeBridgeOptions bridge_options)
@@ -103,6 +106,11 @@ Ros2Bridge::Impl::Impl(int& argc, char** argv, NodeBridgeOptions bridge_options)
   }
   if (options.on_step) offer_step_services();
   offer_parameters();
+  const MessageType* const report =
+      messages::find_message("diagnostic_msgs/DiagnosticArray", messages::RosVersion::kRos2);
+  if (options.take_report && report != nullptr) {  // it may have been taken off meta/messages.txt
+    diagnostics = std::make_unique<ros2::Diagnostics>(participant, *report, names.node(), options.take_report);
+  }
   first_of_scenes = next_id;
   announcement.update();
   rosout.log(ros2::Rosout::Level::kInfo,
@@ -305,6 +313,10 @@ void Ros2Bridge::shutdown_endpoints() {
   }
   impl_->topics.shutdown_from(impl_->first_of_scenes);
   impl_->services.remove_from(impl_->first_of_scenes);
+}
+
+void Ros2Bridge::publish_diagnostics() {
+  if (impl_->diagnostics) impl_->diagnostics->publish();
 }
 
 NodeGraph Ros2Bridge::graph() { return ros2::read_graph(impl_->participant); }

@@ -17,9 +17,13 @@ from ros_support import REPOSITORY, SUPPORT
 ROS2 = _core.messages.RosVersion.ROS2
 
 CLIENT = """
+    AT_ONCE = -1
+
     def sysCall_init():
         def response(goal_id, accepted):
             print('accepted', accepted, flush=True)
+            if {cancelled_after} == AT_ONCE:
+                simROS2.cancelLastGoal(self.client)
         def feedback(goal_id, message):
             print('feedback', message['completed_steps'], message['remaining_steps'], flush=True)
             if message['completed_steps'] == {cancelled_after}:
@@ -37,9 +41,9 @@ CLIENT = """
 """
 
 
-def node_with(domain: Domain, folder: Path, script: str) -> Node:
+def node_with(domain: Domain, folder: Path, script: str, *options: str) -> Node:
     file = write(folder / "script.py", script)
-    return Node(domain.env(), folder / "log", "ball", "--ros=2", "--child-script", f"/Ball={file}")
+    return Node(domain.env(), folder / "log", "ball", "--ros=2", "--child-script", f"/Ball={file}", *options)
 
 
 def test_the_action_runs_steps_with_feedback(ros2_domain: Domain, tmp_path: Path) -> None:
@@ -53,6 +57,13 @@ def test_a_cancelled_action_runs_no_more_steps(ros2_domain: Domain, tmp_path: Pa
     with node_with(ros2_domain, tmp_path, CLIENT.format(steps=1_000_000, paused=True, cancelled_after=3)) as node:
         node.wait_for_output("result 5 1")
         assert len(re.findall("^at", node.output, re.MULTILINE)) < 1000
+
+
+def test_a_cancelled_action_whose_step_is_held_back_is_cancelled(ros2_domain: Domain, tmp_path: Path) -> None:
+    script = CLIENT.format(steps=3, paused=True, cancelled_after=-1)
+    with node_with(ros2_domain, tmp_path, script, "--lockstep", "/never_published") as node:
+        node.wait_for_output("result 5 1")  # not 6: aborted because the step was given up
+        assert "feedback" not in node.output
 
 
 def test_the_action_of_a_simulation_that_plays_is_aborted(ros2_domain: Domain, tmp_path: Path) -> None:

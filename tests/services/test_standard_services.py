@@ -2,13 +2,14 @@
 """The services of the package simulation_interfaces, called by a node of ROS 1."""
 
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from node_support import Node, write
-from ros_support import RosCore, wait_until
+from ros_support import DEADLINE, RosCore, wait_until
 from service_caller import ServiceCaller
 
 OK, NOT_FOUND, FAILED, UNSUPPORTED = 1, 2, 4, 0
@@ -109,6 +110,14 @@ def test_steps_run_while_it_is_paused(call: Call) -> None:
     refused = call("/step_simulation", steps=1)
     assert code(refused) == FAILED
     assert "pause it first" in refused["result"]["error_message"]
+
+
+def test_a_pause_ends_steps(call: Call, roscore: RosCore) -> None:
+    with ThreadPoolExecutor() as pool, ServiceCaller(roscore) as other:
+        answer = pool.submit(call, "/step_simulation", steps=100_000_000)
+        wait_until(lambda: time_of(other) > 1.0, "some steps")
+        other("/sim_ros_interface/pause")
+        assert code(answer.result(timeout=DEADLINE)) == FAILED
 
 
 def test_entities_are_models_by_name(call: Call) -> None:

@@ -21,7 +21,8 @@ from peer_process import PeerProcess
 from ros_support import DEADLINE, REPOSITORY, wait_until
 
 Message = dict[str, Any]
-PEERS = REPOSITORY / ".ws" / "ros2_peers"
+PEERS = REPOSITORY / ".ws" / "ros2_peers"  # of Jazzy
+KILTED_PEERS = REPOSITORY / ".ws" / "ros2_kilted_peers"
 LIBRARY = REPOSITORY / ".ws" / "devel" / "lib" / "libbubblesim_ros2.so"
 
 has_ros2 = pytest.mark.skipif(not LIBRARY.exists(), reason="built without ROS 2: scripts/setup --with ros2")
@@ -58,9 +59,9 @@ def ros2_domain() -> Iterator[Domain]:
     domain.release()
 
 
-def peer_environment(domain: Domain, **changes: str) -> dict[str, str]:
+def peer_environment(domain: Domain, peers: Path = PEERS, **changes: str) -> dict[str, str]:
     """Return the environment of rclpy: its own packages only."""
-    if not (PEERS / "bin" / "python").exists():
+    if not (peers / "bin" / "python").exists():
         pytest.skip("rclpy is not installed: scripts/setup --with ros2 --with tests")
     env = domain.env(**changes)
     for name in ("LD_LIBRARY_PATH", "VIRTUAL_ENV", "_ROS_WHEELS_BOOTSTRAP_COMPLETE"):
@@ -71,11 +72,11 @@ def peer_environment(domain: Domain, **changes: str) -> dict[str, str]:
 class Ros2Peer(PeerProcess):
     """A node `/peer` that publishes and receives messages as dicts; bytes stay bytes."""
 
-    def __init__(self, domain: Domain, log: Path, within: Sequence[str] = (), **env: str) -> None:
-        """``within``: a program that runs the command which follows its arguments."""
+    def __init__(self, domain: Domain, log: Path, within: Sequence[str] = (), peers: Path = PEERS, **env: str) -> None:
+        """``within``: a program that runs the command which follows its arguments; ``peers``: where rclpy is."""
         program = str(Path(__file__).with_name("ros2_peer_node.py"))
-        command = [*within, str(PEERS / "bin" / "python"), "-u", program]
-        super().__init__(command, peer_environment(domain, **env), log)
+        command = [*within, str(peers / "bin" / "python"), "-u", program]
+        super().__init__(command, peer_environment(domain, peers, **env), log)
         self._subscribed: set[str] = set()
         self._wait_for("ready", 1)
 

@@ -54,6 +54,8 @@ struct Field {
   /// Index of `name` among all field names known to the process (see field_key()). Adapters keep their own form of the
   /// name, such as an interned Python string, in a table under this index.
   std::uint32_t key = 0;
+  /// In ROS 2 a definition may give a default: the bytes of its numbers, or strings that end with 0 each. Empty: 0, "".
+  std::string default_value;
 };
 
 struct Constant {
@@ -97,7 +99,7 @@ std::size_t minimum_size(const MessageType& type);
 std::size_t minimum_size(const Field& field);
 std::size_t minimum_element_size(const Field& field);
 
-/// Appends the default value of a message or a field: 0, false, "", time 0, no elements.
+/// Appends the default value of a message or a field: that of its definition, or 0, false, "", time 0, no elements.
 void put_default(const MessageType& type, WireBuffer& out);
 void put_default(const Field& field, WireBuffer& out);
 

@@ -36,6 +36,9 @@ std::vector<std::string> service_names(RosVersion version = RosVersion::kRos1);
 std::vector<std::string> similar_message_names(std::string_view name, RosVersion version = RosVersion::kRos1);
 std::vector<std::string> similar_service_names(std::string_view name, RosVersion version = RosVersion::kRos1);
 
+/// Whether ROS_DISTRO names a distribution of ROS 2 before Iron: a few types had other fields then.
+bool ros2_is_before_iron();
+
 /// Index of a field name; equal for equal names throughout the process. Indices count up from 0. Thread-safe.
 std::uint32_t field_key(std::string_view name);
 

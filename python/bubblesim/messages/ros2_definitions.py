@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+import struct
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -18,6 +19,23 @@ KINDS = COMMON_KINDS | {
 # ROS 1's spelling of types -> that of ROS 2.
 _OF_ROS1 = {"time": "builtin_interfaces/Time", "duration": "builtin_interfaces/Duration", "Header": "std_msgs/Header"}
 _BUILTIN = COMMON_KINDS.keys() | {"byte", "wstring"}
+
+# Of the numbers.
+_STRUCT_CODES = {
+    "bool": "?",
+    "byte": "B",
+    "char": "B",
+    "int8": "b",
+    "uint8": "B",
+    "int16": "h",
+    "uint16": "H",
+    "int32": "i",
+    "uint32": "I",
+    "int64": "q",
+    "uint64": "Q",
+    "float32": "f",
+    "float64": "d",
+}
 
 _TYPE = re.compile(r"([A-Za-z]\w*(?:/[A-Za-z]\w*)*)(?:<=(\d+))?(?:(\[)(<=)?(\d*)\])?")
 _CONSTANT = re.compile(r"\s*([A-Za-z]\w*)\s*=(.*)", re.DOTALL)
@@ -58,6 +76,7 @@ class Ros2Message:
     folder: str = "msg"
     fields: list[tuple[str, FieldType]] = field(default_factory=list)
     constants: list[tuple[str, str, Any]] = field(default_factory=list)  # name, type, value
+    defaults: dict[str, bytes] = field(default_factory=dict)  # by field, see messages::Field in message_type.hpp
 
     @property
     def full_name(self) -> str:
@@ -107,10 +126,12 @@ def _read_line(line: str, message: Ros2Message) -> None:
         whole = line.split(None, 1)[1].partition("=")[2]  # a '#' belongs to the value of a string
         message.constants.append((constant[1], kind.base, _value(kind.base, constant[2], whole)))
         return
-    name = rest.split(None, 1)[0] if rest else ""  # a default value may follow
+    name, _, default = rest.partition(" ")
     if not re.fullmatch(r"[A-Za-z]\w*", name):
         raise ValueError(f"'{line.strip()}' is not a field: expected a type and a name")
     message.fields.append((name, kind))
+    if default.strip():
+        message.defaults[name] = _default(kind, line[line.index(default.strip()) :].strip())
 
 
 def field_type(text: str, package: str) -> FieldType:
@@ -144,6 +165,31 @@ def _value(kind: str, text: str, whole: str) -> Any:
         return int(value, 0)
     except ValueError:
         return int(value)  # 010
+
+
+_STRINGS = re.compile(r"""\s*(?:"((?:[^"\\]|\\.)*)"|'((?:[^'\\]|\\.)*)')\s*(?:,|$|#)?""")
+
+
+def _default(kind: FieldType, text: str) -> bytes:
+    """Return the bytes of a default value, `1.5` or `[1, 2]`, which a comment may follow; those of 0 are empty."""
+    if kind.base == "wstring":
+        return b""  # types with it are refused elsewhere
+    if not kind.is_builtin:
+        raise ValueError(f"a {kind.base} has no default value, found '{text}'")
+    if kind.is_array:
+        if not text.startswith("["):
+            raise ValueError(f"expected a list of default values, found '{text}'")
+        text = text[1:].rpartition("]")[0]
+    if kind.base == "string":
+        quoted = [re.sub(r"\\(.)", r"\1", one or other) for one, other in _STRINGS.findall(text)]
+        strings = quoted or [text.partition("#")[0].strip()]
+        return b"".join(each.encode(errors="surrogateescape") + b"\0" for each in strings)
+    values = [_value(kind.base, each, "") for each in text.partition("#")[0].split(",")]
+    try:
+        packed = struct.pack(f"<{len(values)}{_STRUCT_CODES[kind.base]}", *values)
+    except struct.error as error:
+        raise ValueError(f"default value '{text}' of a {kind.spelling}: {error}") from error
+    return packed if any(packed) else b""
 
 
 def _constant_text(kind: str, value: Any) -> str:

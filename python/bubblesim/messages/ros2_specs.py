@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Loads the definitions of ROS 2's types with their nested types.
 
-ROS 2 is not installed. Most of its types have the fields of ROS 1's; the definitions of the others are in ``ros2/``.
+ROS 2 is not installed. Most of its types have the fields of ROS 1; the definitions of the others are in ``ros2/``,
+those of Humble in ``ros2_before_iron/``.
 """
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,13 +18,26 @@ from bubblesim.messages.ros2_hashes import message_hash, service_hash
 from bubblesim.messages.specs import SpecError
 
 _ONLY_ROS1 = {"std_msgs/Time", "std_msgs/Duration", "rosgraph_msgs/Log", "rosgraph_msgs/TopicStatistics"}
+_BEFORE_IRON = {"humble", "galactic", "foxy"}
 _ACTION_PARTS = ("Action", "ActionGoal", "ActionResult", "ActionFeedback", "Goal", "Result", "Feedback")
 
 
-def own_definitions() -> PackageIndex:
-    """Return the index of the types that ROS 1 does not have, or has with other fields."""
-    index = PackageIndex()
+def own_definitions(*, before_iron: bool | None = None) -> PackageIndex:
+    """Return the index of the types that ROS 1 does not have, or has with other fields.
+
+    before_iron: as in the distributions of ROS 2 before Iron; by default, if ROS_DISTRO names one.
+    """
+    if before_iron is None:
+        before_iron = os.environ.get("ROS_DISTRO") in _BEFORE_IRON
+    index = definitions_before_iron() if before_iron else PackageIndex()
     index.add_share(Path(__file__).parent / "ros2")
+    return index
+
+
+def definitions_before_iron() -> PackageIndex:
+    """Return the index of the types that had other fields before Iron."""
+    index = PackageIndex()
+    index.add_share(Path(__file__).parent / "ros2_before_iron")
     return index
 
 
@@ -39,10 +54,10 @@ class Ros2Specs:
     """The loaded types."""
 
     index: PackageIndex  # of ROS 1's definitions
+    own: PackageIndex = field(default_factory=own_definitions)
     messages: dict[str, Ros2Message] = field(default_factory=dict)  # by name, after their nested types
     services: dict[str, tuple[Ros2Message, Ros2Message]] = field(default_factory=dict)  # request, response
     files: set[Path] = field(default_factory=set)
-    own: PackageIndex = field(default_factory=own_definitions)
 
     def load_own(self) -> None:
         """Load the types that ROS 1 does not have."""
@@ -114,7 +129,7 @@ class Ros2Specs:
             if found is None:
                 raise SpecError(f"{name} has no definition: expected package/Name such as test_msgs/Fibonacci")
             (message,) = _read(found, f"{name}{ending}", "msg")
-            part = Ros2Message(f"{base}_{ending}", "action", message.fields, message.constants)
+            part = Ros2Message(f"{base}_{ending}", "action", message.fields, message.constants, message.defaults)
             self._load_nested(part, found, (name,))
             parts.append(part)
         return parts

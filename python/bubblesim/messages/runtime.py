@@ -116,7 +116,13 @@ def _register_ros2(specs: Ros2Specs) -> None:
 
 def _ros2_tuple(specs: Ros2Specs, message: Ros2Message) -> tuple[Any, ...]:
     fields = [
-        (name, ROS2_KINDS.get(kind.base, kind.base), kind.is_array, None if kind.is_bounded else kind.length)
+        (
+            name,
+            ROS2_KINDS.get(kind.base, kind.base),
+            kind.is_array,
+            None if kind.is_bounded else kind.length,
+            message.defaults.get(name, b""),
+        )
         for name, kind in message.fields
     ]
     constants = [(name, ROS2_KINDS[kind], _bytes_of(value)) for name, kind, value in message.constants]
@@ -154,7 +160,7 @@ def _register_tuples(messages: list[tuple[Any, ...]], services: list[tuple[Any, 
 
 
 def _message_tuple(specs: Specs, spec: Any) -> tuple[Any, ...]:
-    fields = [(f.name, KINDS.get(f.base_type, f.base_type), f.is_array, f.array_len) for f in spec.parsed_fields()]
+    fields = [(f.name, KINDS.get(f.base_type, f.base_type), f.is_array, f.array_len, b"") for f in spec.parsed_fields()]
     constants = [(c.name.strip(), KINDS[c.type], _bytes_of(c.val)) for c in spec.constants]
     definition = _bytes_of(specs.full_text(spec))
     return spec.full_name, specs.md5(spec), definition, has_header(spec.types), fields, constants

@@ -36,7 +36,9 @@ class SimulateSteps:
         self._server.publish_status_when_due()
         if self._goal is None:
             return
-        if self._runner.state != RunState.PAUSED:
+        if self._server.is_in(self._goal, GoalStatus.PREEMPTING):
+            self._finish("be canceled", "")  # not only at the end of the step, which may be held back
+        elif self._runner.state != RunState.PAUSED:
             self._finish("abort", f"the simulation is {self._runner.state.name.lower()} meanwhile")
         elif time.monotonic() - self._last_step > _LONGEST_WAIT:
             self._finish("abort", f"step {self._done + 1} was not carried out: another request has ended it")

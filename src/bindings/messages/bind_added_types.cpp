@@ -26,8 +26,8 @@ using messages::FieldKind;
 using messages::MessageType;
 using messages::RosVersion;
 
-/// name; kind or name of a message; whether it is an array; its length if fixed
-using FieldTuple = std::tuple<std::string, std::string, bool, std::optional<std::uint32_t>>;
+/// name; kind or name of a message; whether it is an array; its length if fixed; its default, see messages::Field
+using FieldTuple = std::tuple<std::string, std::string, bool, std::optional<std::uint32_t>, py::bytes>;
 /// name, kind, value; strings are bytes
 using ConstantTuple = std::tuple<std::string, std::string, py::object>;
 /// name, type hash, definition, has_header, fields, constants
@@ -35,11 +35,12 @@ using MessageTuple =
     std::tuple<std::string, std::string, py::bytes, bool, std::vector<FieldTuple>, std::vector<ConstantTuple>>;
 
 Field make_field(const FieldTuple& tuple, RosVersion version) {
-  const auto& [name, type, is_array, length] = tuple;
+  const auto& [name, type, is_array, length, default_value] = tuple;
   Field field;
   field.name = name;
   field.array = !is_array ? ArrayKind::kNone : length ? ArrayKind::kFixed : ArrayKind::kVariable;
   field.fixed_length = length.value_or(0);
+  field.default_value = std::string(default_value);
   if (type.find('/') == type.npos) {
     field.kind = messages::kind_of(type);
     return field;
@@ -90,7 +91,8 @@ void bind_added_types(py::module_& m) {
   m.def("add_message", &add_message, py::arg("message"), py::arg("version") = RosVersion::kRos1,
         "Add a message type that is not listed, after the types that it contains. The message is a tuple (name, type "
         "hash, definition as bytes, has_header, fields, constants), with fields (name, kind or package/Type, is_array, "
-        "length or None) and constants (name, kind, value). Raise ValueError if another type has that name.");
+        "length or None, bytes of the default or b'') and constants (name, kind, value). Raise ValueError if another "
+        "type has that name.");
   m.def("add_service", &add_service, py::arg("name"), py::arg("type_hash"), py::arg("request"), py::arg("response"),
         py::arg("version") = RosVersion::kRos1,
         "Add a service type; its request and response are tuples as in add_message.");

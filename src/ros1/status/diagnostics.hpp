@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "bubblesim/run_report.hpp"
+#include "run_diagnosis.hpp"
 #include "status/topic_traffic.hpp"
 
 namespace diagnostic_updater {
@@ -39,7 +40,7 @@ class Diagnostics {
   const std::function<RunReport()> take_report_;
   std::unique_ptr<diagnostic_updater::Updater> updater_;  // made late: its constructor calls the master
   TopicTraffic traffic_;
-  int script_errors_ = 0;  // reported so far
+  RunDiagnosis diagnosis_;
   Clock::time_point next_{};
 };
 

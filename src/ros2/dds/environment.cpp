@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "bubblesim/messages/registry.hpp"
+
 namespace bubblesim::ros2 {
 namespace {
 
@@ -58,10 +60,7 @@ Environment read_environment() {
   environment.domain = read_domain();
   environment.range = read_range();
   if (environment.range != Range::kOff && variable("ROS_LOCALHOST_ONLY") != "1") environment.peers = read_peers();
-  const std::string_view distribution = variable("ROS_DISTRO");
-  if (distribution == "humble" || distribution == "galactic" || distribution == "foxy") {
-    environment.gid_size = kOldGidSize;
-  }
+  if (messages::ros2_is_before_iron()) environment.gid_size = kOldGidSize;
   return environment;
 }
 
