@@ -3,7 +3,8 @@
 """Sends a goal of the action follow_joint_trajectory by actionlib; prints its end as JSON.
 
 Arguments: namespace of the controller, then a JSON object: names; points [[time, positions, velocities or null]...];
-stamp, the time of the start in s, or null; cancel_after in s of simulation time or null; path, a tolerance of all joints or null.
+stamp, the time of the start in s, or null; cancel_after in s of simulation time or null; path, a tolerance of all
+joints, or null.
 """
 
 import json

@@ -341,7 +341,9 @@ CART = """<robot name="cart">
 
 
 def test_joints_in_a_ros2_control_element_are_controlled_too(node: Arm) -> None:
-    node.core.run("rosparam", "set", "/cart/slider", "{type: position_controllers/JointPositionController, joint: slide}")
+    node.core.run(
+        "rosparam", "set", "/cart/slider", "{type: position_controllers/JointPositionController, joint: slide}"
+    )
     node.core.run("rosparam", "set", "/cart/states",
                   "{type: joint_state_controller/JointStateController, publish_rate: 50}")  # fmt: skip
     assert node.call("/gazebo/spawn_urdf_model", model_name="cart", model_xml=CART, robot_namespace="/cart")["success"]

@@ -48,7 +48,9 @@ class BaseController(Controller):
     def settings(self, *, by_angles: bool = False) -> Any:
         """Return the settings of the core controller; angles that are commanded have no limits."""
         p = self.parameters
-        others = [_NO_LIMITS] * 2 if by_angles else [limits_of(p.below(*k)) for k in (("linear", "y"), ("angular", "z"))]
+        others = (
+            [_NO_LIMITS] * 2 if by_angles else [limits_of(p.below(*k)) for k in (("linear", "y"), ("angular", "z"))]
+        )
         return BaseSettings(
             p.number("cmd_vel_timeout", 0.5),
             p.flag("open_loop", default=False),

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Types of controllers that packages of the user export in their package.xml.
 
-``<export><bubblesim controller="PACKAGE/TYPE" class="MODULE:CLASS"/></export>``. A type is looked up in the package that
-its name begins with, on ROS_PACKAGE_PATH: a parameter alone does not choose the code that runs.
+``<export><bubblesim controller="PACKAGE/TYPE" class="MODULE:CLASS"/></export>``. A type is looked up in the package
+with which its name begins, on ROS_PACKAGE_PATH: a parameter alone does not choose the code that runs.
 """
 
 from __future__ import annotations

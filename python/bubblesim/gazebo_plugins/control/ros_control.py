@@ -53,7 +53,9 @@ class RosControl(Plugin):
         ]
         manager = control.ControllerManager(self.world, context.model, entries)
         context.endpoints.append(manager.remove)
-        robot = Robot(self, manager, joints, namespace, {name: joint.kinds[0] for name, joint in joints.items() if joint.kinds})
+        robot = Robot(
+            self, manager, joints, namespace, {name: joint.kinds[0] for name, joint in joints.items() if joint.kinds}
+        )
         self._controllers = ControllerManager(robot)
         context.endpoints.append(self._controllers.close)
 
@@ -102,7 +104,7 @@ class RosControl(Plugin):
 
 
 class Ros2Control(RosControl):
-    """gz_ros2_control and gazebo_ros2_control, with the services and parameters of ROS 1; <parameters> has no effect."""
+    """gz_ros2_control and gazebo_ros2_control, with the services and parameters of ROS 1; <parameters> is ignored."""
 
     ignored = ("parameters", "controller_manager_name", "hold_joints", "position_proportional_gain", "robot_param",
                "robot_param_node", "ros")  # fmt: skip

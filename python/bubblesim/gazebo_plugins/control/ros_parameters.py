@@ -106,7 +106,7 @@ class ControllerParameters:
     def pair(self, key: str) -> list[str]:
         """Return a list of two strings."""
         names = self.names(key)
-        if len(names) != 2:  # noqa: PLR2004 - as it says
+        if len(names) != 2:
             raise self.fail(key, "two strings, left and right")
         return names
 
