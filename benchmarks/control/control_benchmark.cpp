@@ -100,7 +100,8 @@ int main() {
   Arm arm;
   auto pids = std::vector<std::shared_ptr<PidController>>();
   for (std::size_t i = 0; i < kJoints; ++i) {
-    pids.push_back(std::make_shared<PidController>(i, PidController::Kind::kPosition, PidGains{100, 1, 10, 1, -1, false}));
+    pids.push_back(
+        std::make_shared<PidController>(i, PidController::Kind::kPosition, PidGains{100, 1, 10, 1, -1, false}));
     arm.manager->start(pids.back());
   }
   const auto update = [&](int i) { arm.manager->update(arm.world, i * kStep, kStep); };

@@ -20,8 +20,7 @@ struct TransmissionActuator {
   std::vector<std::string> hardware_interfaces;
 };
 
-/// A <transmission> or <ros2_control> of URDF: which interfaces ros_control gives to joints. It has no effect on the
-/// physics.
+/// A <transmission> or <ros2_control> of URDF: the interfaces of joints for ros_control, without effect on the physics.
 struct TransmissionDescription {
   std::string name;
   std::string type;  ///< such as transmission_interface/SimpleTransmission, or ros2_control

@@ -16,9 +16,9 @@ namespace bubblesim::control {
 class BaseController : public Controller {
  public:
   struct Settings {
-    double timeout = 0.5;     ///< s without a command after which the robot stops; 0: none
-    bool open_loop = false;   ///< odometry from the commands instead of the wheels
-    std::size_t window = 10;  ///< of the odometry's velocities
+    double timeout = 0.5;               ///< s without a command after which the robot stops; 0: none
+    bool open_loop = false;             ///< odometry from the commands instead of the wheels
+    std::size_t window = 10;            ///< of the odometry's velocities
     std::array<SpeedLimits, 3> limits;  ///< of the numbers of a command
   };
 

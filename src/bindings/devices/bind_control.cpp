@@ -182,9 +182,9 @@ void bind_base_controllers(py::module_& module) {
            }),
            py::arg("driven"), py::arg("steered"), py::arg("track"), py::arg("base"), py::arg("radius"),
            py::arg("by_angles"), "Joints: front left, front right, rear left, rear right.");
-  auto four = bind_controller<FourWheelSteeringController, FourWheelSteeringController::Wheels,
-                              BaseController::Settings>(module, "FourWheelSteeringController",
-                                                        "Drives and steers four wheels.");
+  auto four =
+      bind_controller<FourWheelSteeringController, FourWheelSteeringController::Wheels, BaseController::Settings>(
+          module, "FourWheelSteeringController", "Drives and steers four wheels.");
   bind_base(four);
 }
 

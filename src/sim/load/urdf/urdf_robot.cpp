@@ -98,8 +98,9 @@ class PartReader {
         if (interface.name != "command_interface") continue;
         std::string kind = interface.given_name();
         if (kind != "position" && kind != "velocity" && kind != "effort") {
-          context_.warn(interface.source(), path_ + "/" + system.name + "/" + joint.name,
-                        "<command_interface name='" + kind + "'> has no effect: it must be position, velocity or effort");
+          context_.warn(
+              interface.source(), path_ + "/" + system.name + "/" + joint.name,
+              "<command_interface name='" + kind + "'> has no effect: it must be position, velocity or effort");
           continue;
         }
         kind.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(kind.front())));

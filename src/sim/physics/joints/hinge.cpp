@@ -53,9 +53,9 @@ class Hinge final : public Joint {
     if (counts_turns_) archive(followed_);
   }
 
-  /// ODE turns a body by its whole angular velocity at once. A wheel that spins with s while its robot turns with w would
-  /// lean by s w h^2 / 2 in each substep, so that it stood on its edge. Turned about its own axis first, and about the
-  /// others then, it keeps to its joint.
+  /// ODE turns a body by its whole angular velocity at once. A wheel that spins with s while its robot turns with w
+  /// would lean by s w h^2 / 2 in each substep, so that it stood on its edge. Turned about its own axis first, and
+  /// about the others then, it keeps to its joint.
   void turn_about_axis() {
     dVector3 axis;
     dJointGetHingeAxis(joint_.get(), axis);
