@@ -20,10 +20,10 @@ struct TransmissionActuator {
   std::vector<std::string> hardware_interfaces;
 };
 
-/// A <transmission> of URDF: which interfaces ros_control gives to a joint. It has no effect on the physics.
+/// A <transmission> or <ros2_control> of URDF: the interfaces of joints for ros_control, without effect on the physics.
 struct TransmissionDescription {
   std::string name;
-  std::string type;  ///< such as transmission_interface/SimpleTransmission
+  std::string type;  ///< such as transmission_interface/SimpleTransmission, or ros2_control
   std::vector<TransmissionJoint> joints;
   std::vector<TransmissionActuator> actuators;
   Source source;

@@ -140,10 +140,11 @@ def test_an_arm_moves_through_a_trajectory(tmp_path: Path) -> None:
             wait_until(lambda: running(call, "", "eff_joint_traj_controller"), "the controller", 3 * DEADLINE)
             names = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"]
             goal = [0.5, -1.2, 1.0, -0.5, 0.4, 0.3]
-            points = [[6.0, [0.0, -1.57, 0.0, -1.57, 0.0, 0.0], [0.0] * 6], [12.0, goal, [0.0] * 6]]
+            points = [[2.0, [0.0, -1.57, 0.0, -1.57, 0.0, 0.0], [0.0] * 6], [4.0, goal, [0.0] * 6]]
             joints = [f"{name}_joint" for name in names]
             result = follow(env, "/eff_joint_traj_controller", names=joints, points=points)
             assert (result["state"], result["error_code"]) == (3, 0), result
+            assert result["largest_error"] < 0.05, "half the tolerance of its controllers"
             assert [result["positions"][name] for name in joints] == pytest.approx(goal, abs=0.1)
 
 

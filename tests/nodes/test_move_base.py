@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The action of move_base, with a robot that follows each command at once."""
 
+import math
+
 import pytest
 
 from bubblesim.compat.move_base import driver_parameters
@@ -68,6 +70,39 @@ time.sleep(1.0)
 print(json.dumps({"reached": reached, "at": at, "cancelled": cancelled, "moved": math.dist(before[:2], place[:2]),
                   "place": place, "feedback": feedback[0].base_position.header.frame_id}))
 """
+# The same room with a post at (3, 2): paths around it, and the costmaps.
+PLANS = (
+    ROBOT.split("client = ")[0]
+    .replace("grid = ", "cells[18:22, 28:32] = 100\ngrid = ", 1)
+    .replace("[math.inf] * 4", "[1.0] + [math.inf] * 3")
+    + """
+from nav_msgs.srv import GetPlan, GetPlanRequest
+rospy.wait_for_service("/move_base/make_plan", 60)
+make_plan = rospy.ServiceProxy("/move_base/make_plan", GetPlan)
+
+def path(goal, start=None):
+    request = GetPlanRequest()
+    request.goal.header.frame_id = "map"
+    request.goal.pose.position.x, request.goal.pose.position.y = goal
+    if start:
+        request.start.header.frame_id = "map"
+        request.start.pose.position.x, request.start.pose.position.y = start
+    return [(pose.pose.position.x, pose.pose.position.y) for pose in make_plan(request).plan.poses]
+
+wait_until(lambda: path((5.0, 2.0)), "a plan")
+costs = {}
+for name in ("global_costmap", "local_costmap"):
+    message = rospy.wait_for_message(f"/move_base/{name}/costmap", OccupancyGrid, 60)
+    columns, side, corner = message.info.width, message.info.resolution, message.info.origin.position
+    def cost(x, y):
+        return message.data[int((y - corner.y) / side) * columns + int((x - corner.x) / side)]
+    places = {"post": (2.95, 1.95), "beside": (2.55, 1.95), "hit": (2.025, 2.025), "away": (1.05, 0.95)}
+    costs[name] = {place: cost(*point) for place, point in places.items()}
+    costs[name]["size"] = [columns, message.info.height]
+print(json.dumps({"from_robot": path((5.0, 2.0)), "between": path((5.0, 2.0), (5.0, 1.0)),
+                  "in_wall": path((3.0, 2.0)), "costs": costs}))
+"""
+)
 SUCCEEDED, PREEMPTED = 3, 2  # of actionlib_msgs/GoalStatus
 
 
@@ -95,3 +130,25 @@ def test_parameters_that_mean_the_same_are_passed_on() -> None:
         "max_speed": 0.4,
         "max_turn": 1.2,
     }
+
+
+def test_plans_lead_around_obstacles_and_costmaps_show_them(node: Start, ask: Ask) -> None:
+    node(
+        "../compat/move_base/move_base",
+        "_global_costmap/robot_radius:=0.3",
+        "_local_costmap/width:=4.0",
+        "_local_costmap/height:=3.0",
+    )
+    seen = ask(PLANS)
+    path = seen["from_robot"]
+    assert path[0] == pytest.approx([1.0, 2.0])
+    assert path[-1] == pytest.approx([5.0, 2.0])
+    assert all(math.dist(point, (3.0, 2.0)) > 0.45 for point in path)
+    assert seen["between"][0] == [5.0, 1.0]
+    assert seen["in_wall"] == []
+    costs = seen["costs"]["global_costmap"]
+    assert (costs["size"], costs["post"], costs["beside"], costs["away"]) == ([60, 40], 100, 99, 0)
+    local = seen["costs"]["local_costmap"]
+    assert local["size"] == [80, 60]
+    assert local["hit"] >= 99
+    assert local["away"] == 0

@@ -3,7 +3,8 @@
 """Sends a goal of the action follow_joint_trajectory by actionlib; prints its end as JSON.
 
 Arguments: namespace of the controller, then a JSON object: names; points [[time, positions, velocities or null]...];
-cancel_after in s of simulation time or null; path, a tolerance of all joints or null.
+stamp, the time of the start in s, or null; cancel_after in s of simulation time or null; path, a tolerance of all
+joints, or null.
 """
 
 import json
@@ -26,6 +27,7 @@ def main() -> None:
     assert client.wait_for_server(rospy.Duration(60))
     goal = FollowJointTrajectoryGoal()
     goal.trajectory.joint_names = wanted["names"]
+    goal.trajectory.header.stamp = rospy.Time(wanted.get("stamp") or 0)
     for time, positions, velocities in wanted["points"]:
         point = JointTrajectoryPoint(positions=positions, velocities=velocities or [])
         point.time_from_start = rospy.Duration(time)

@@ -16,36 +16,33 @@ namespace bubblesim::control {
 class BaseController : public Controller {
  public:
   struct Settings {
-    double timeout = 0.5;     ///< s without a command after which the robot stops; 0: none
-    bool open_loop = false;   ///< odometry from the commands instead of the wheels
-    std::size_t window = 10;  ///< of the odometry's velocities
-    SpeedLimits linear;       ///< m/s
-    SpeedLimits angular;      ///< rad/s; of the steering angle, rad, for steered robots
+    double timeout = 0.5;               ///< s without a command after which the robot stops; 0: none
+    bool open_loop = false;             ///< odometry from the commands instead of the wheels
+    std::size_t window = 10;            ///< of the odometry's velocities
+    std::array<SpeedLimits, 3> limits;  ///< of the numbers of a command
   };
+
+  /// Of a robot that turns by its wheels' velocities: m/s forward, m/s to the left, rad/s. Of a steered robot: see its
+  /// class.
+  using Command = std::array<double, 3>;
 
   explicit BaseController(const Settings& settings) : settings_(settings), odometry_(settings.window) {}
 
-  /// Takes m/s forward, and rad/s; for steered robots the angle of the front wheels in rad. It holds from the next
-  /// update on. Returns false for numbers that are not usable.
-  bool set_command(double linear, double angular);
+  /// Takes a command, which holds from the next update on. Returns false for numbers that are not usable.
+  bool set_command(const Command& command);
   const WheelOdometry& odometry() const { return odometry_; }
   /// What the last update has made of the command.
-  std::array<double, 2> limited_command() const { return {last_.linear, last_.angular}; }
+  const Command& limited_command() const { return last_; }
 
   void starting(RobotHardware& robot, double time) final;
   void update(RobotHardware& robot, double time, double period) final;
   void transfer(StateArchive& archive) final;
 
  protected:
-  struct Command {
-    double linear = 0;
-    double angular = 0;
-  };
-
-  /// The distance in m and the angle in rad that the robot has moved since the last call, by its wheels.
-  virtual std::array<double, 2> moved(const RobotHardware& robot, double period) = 0;
-  /// The same for a command of the given duration.
-  virtual std::array<double, 2> commanded(const Command& command, double period) const;
+  /// How the robot has moved since the last call, by its wheels.
+  virtual PlanarMotion moved(const RobotHardware& robot) = 0;
+  /// How a command moves it in `period` s.
+  virtual PlanarMotion commanded(const Command& command, double period) const;
   virtual void command_wheels(RobotHardware& robot, const Command& command) = 0;
   virtual void begin(const RobotHardware& robot) = 0;
   virtual void transfer_wheels(StateArchive& archive) = 0;
@@ -53,9 +50,9 @@ class BaseController : public Controller {
  private:
   Settings settings_;
   WheelOdometry odometry_;
-  Command command_;
-  Command last_;
-  Command second_last_;
+  Command command_{};
+  Command last_{};
+  Command second_last_{};
   bool is_new_ = false;  // the command came after the last update
   double received_ = 0;  // s
 };
@@ -76,7 +73,7 @@ class DiffDriveController final : public BaseController {
   std::vector<std::size_t> claimed() const override;
 
  private:
-  std::array<double, 2> moved(const RobotHardware& robot, double period) override;
+  PlanarMotion moved(const RobotHardware& robot) override;
   void command_wheels(RobotHardware& robot, const Command& command) override;
   void begin(const RobotHardware& robot) override;
   void transfer_wheels(StateArchive& archive) override;
@@ -87,6 +84,7 @@ class DiffDriveController final : public BaseController {
 };
 
 /// ackermann_steering_controller/AckermannSteeringController: one driven joint, one steered joint.
+/// Its command is m/s forward, a number without effect, and the angle of the front wheels in rad.
 class AckermannSteeringController final : public BaseController {
  public:
   struct Wheels {
@@ -101,8 +99,8 @@ class AckermannSteeringController final : public BaseController {
   std::vector<std::size_t> claimed() const override { return {wheels_.rear, wheels_.steer}; }
 
  private:
-  std::array<double, 2> moved(const RobotHardware& robot, double period) override;
-  std::array<double, 2> commanded(const Command& command, double period) const override;
+  PlanarMotion moved(const RobotHardware& robot) override;
+  PlanarMotion commanded(const Command& command, double period) const override;
   void command_wheels(RobotHardware& robot, const Command& command) override;
   void begin(const RobotHardware& robot) override;
   void transfer_wheels(StateArchive& archive) override;
@@ -110,5 +108,8 @@ class AckermannSteeringController final : public BaseController {
   Wheels wheels_;
   double rear_ = 0;  // m
 };
+
+/// Throws InvalidInput unless a length in m is finite and above 0.
+void require_length(const char* what, double length);
 
 }  // namespace bubblesim::control

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The node move_base: the action move_base and the topic move_base_simple/goal, driven to by go_to.py.
 
+The service ~make_plan plans on the topic map, ~global_costmap/costmap and ~local_costmap/costmap show it and the scan.
 It starts go_to.py as a node of its own, which plans on the topic map and avoids what is on the topic scan. Parameters
 of move_base that mean the same are passed on: the frames and robot_radius of global_costmap and local_costmap, and
 speeds, acceleration and goal tolerance of DWAPlannerROS and TebLocalPlannerROS. The others have no effect.
@@ -20,10 +21,16 @@ from move_base_msgs.msg import MoveBaseAction, MoveBaseActionGoal, MoveBaseFeedb
 from std_msgs.msg import Bool
 from std_srvs.srv import Empty, EmptyResponse
 
+from bubblesim.compat.move_base_maps import MoveBaseMaps
+from bubblesim.controllers.planar_motion import Pose2D
+from bubblesim.navigation.driver import Driver
+from bubblesim.navigation.path_planning import Footprint
+from bubblesim.navigation.planar import pose_of
 from bubblesim.nodes.run_node import run_node
 from bubblesim.running.places import node_program
 
 _RATE = 10.0  # Hz, of feedback
+_SPARE, _COMFORT = 0.05, 0.3  # m beside the robot's radius, as in go_to.py
 
 # The parameter of go_to.py, and where move_base has it; the first that is given counts.
 _SAME = {
@@ -57,7 +64,8 @@ class MoveBase:
 
     def __init__(self) -> None:
         """Start the driver and the server."""
-        parameters = driver_parameters(rospy.get_param("~", {}))
+        given = rospy.get_param("~", {})
+        parameters = driver_parameters(given)
         self._map_frame = str(parameters.get("map_frame", "map"))
         self._base_frame = str(parameters.get("base_frame", "base_link"))
         self._arrived: bool | None = None
@@ -69,6 +77,9 @@ class MoveBase:
         self._goals = rospy.Publisher("move_base/goal", MoveBaseActionGoal, queue_size=1)
         rospy.Subscriber("move_base_simple/goal", PoseStamped, self._on_simple_goal, queue_size=1)
         rospy.Service("~clear_costmaps", Empty, lambda _: EmptyResponse())  # maps are used as they come
+        radius = float(parameters.get("radius", Driver().radius))
+        footprint = Footprint(radius + _SPARE, radius + _COMFORT)
+        self._maps = MoveBaseMaps((self._map_frame, self._base_frame), footprint, given, self._pose_in)
         self._process = _start_driver(driver, parameters)
         rospy.on_shutdown(self._process.terminate)
         self._server = actionlib.SimpleActionServer("move_base", MoveBaseAction, self._execute, auto_start=False)
@@ -111,6 +122,12 @@ class MoveBase:
             orientation = place.pose.orientation
             orientation.x = orientation.y = orientation.z = orientation.w = 0.0
             self._driver_goal.publish(place)
+
+    def _pose_in(self, frame: str, parent: str) -> Pose2D | None:
+        try:
+            return pose_of(self._transforms.lookup_transform(parent, frame, rospy.Time(0)).transform)
+        except tf2_ros.TransformException:
+            return None
 
     def _place(self) -> Any:
         try:

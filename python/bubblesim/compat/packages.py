@@ -14,6 +14,7 @@ PACKAGES = {
     "control_msgs": "messages, services and actions of controllers",
     "controller_manager": "spawner, unspawner, controller_manager",
     "controller_manager_msgs": "services of the controller manager",
+    "four_wheel_steering_msgs": "messages",
     "gazebo_msgs": "messages and services of gazebo_ros",
     "gazebo_plugins": "the name; the plugins are built in",
     "gazebo_ros": "empty_world.launch, shapes_world.launch, gzserver, gazebo, gzclient, spawn_model",

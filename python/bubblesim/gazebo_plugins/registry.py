@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from pathlib import PurePosixPath
 
-from bubblesim.gazebo_plugins.control.ros_control import RosControl
+from bubblesim.gazebo_plugins.control.ros_control import Ros2Control, RosControl
 from bubblesim.gazebo_plugins.drives.ackermann_drive import AckermannDrive
 from bubblesim.gazebo_plugins.drives.diff_drive import DiffDrive
 from bubblesim.gazebo_plugins.drives.gazebo_drives import GazeboDiffDrive, GazeboSkidSteerDrive
@@ -60,6 +60,7 @@ PLUGINS: dict[str, type[Plugin]] = {
     "gazebo_ros_camera": Camera,
     "gazebo_ros_depth_camera": DepthCamera,
     "gazebo_ros_diff_drive": DiffDrive,
+    "gazebo_ros2_control": Ros2Control,
     "gazebo_ros_control": RosControl,
     "gazebo_ros_ft_sensor": FtSensor,
     "gazebo_ros_gpu_laser": Laser,
@@ -84,6 +85,8 @@ PLUGINS: dict[str, type[Plugin]] = {
     "hector_gazebo_ros_sonar": HectorSonar,
     "gazebo_ros_velodyne_gpu_laser": VelodyneLaser,
     "gazebo_ros_velodyne_laser": VelodyneLaser,
+    "gz_ros2_control-system": Ros2Control,
+    "ign_ros2_control-system": Ros2Control,
     "gz-ackermann-steering-system": GzAckermannSteering,
     "gz-buoyancy-system": GzBuoyancy,
     "gz-diff-drive-system": GzDiffDrive,

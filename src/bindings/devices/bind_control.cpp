@@ -12,6 +12,7 @@
 #include "bindings.hpp"
 #include "bubblesim/control/base_controllers.hpp"
 #include "bubblesim/control/joint_controllers.hpp"
+#include "bubblesim/control/omnidirectional_controllers.hpp"
 #include "bubblesim/control/trajectory_controller.hpp"
 #include "bubblesim/error.hpp"
 #include "devices/attached.hpp"
@@ -90,11 +91,12 @@ std::optional<SpeedLimits::Range> to_range(const Range& range) {
 }
 
 BaseController::Settings make_settings(double timeout, bool open_loop, std::size_t window,
-                                       const std::array<Range, 3>& linear, const std::array<Range, 3>& angular) {
-  const auto limits = [](const std::array<Range, 3>& ranges) {
-    return SpeedLimits{to_range(ranges[0]), to_range(ranges[1]), to_range(ranges[2])};
-  };
-  return {timeout, open_loop, window, limits(linear), limits(angular)};
+                                       const std::array<std::array<Range, 3>, 3>& ranges) {
+  BaseController::Settings settings{timeout, open_loop, window, {}};
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    settings.limits[i] = {to_range(ranges[i][0]), to_range(ranges[i][1]), to_range(ranges[i][2])};
+  }
+  return settings;
 }
 
 template <class Kind>
@@ -103,19 +105,21 @@ void bind_base(py::class_<Loaded<Kind>>& kind) {
       "commands",
       [](const Loaded<Kind>& loaded) {
         return target_of(loaded, [](Kind& controller, const std::vector<double>& numbers) {
-          return numbers.size() == 2 && controller.set_command(numbers[0], numbers[1]);
+          if (numbers.size() == 2) return controller.set_command({numbers[0], 0, numbers[1]});
+          return numbers.size() == 3 && controller.set_command({numbers[0], numbers[1], numbers[2]});
         });
       },
-      py::keep_alive<0, 1>(), "Return a NumberTarget for m/s forward and rad/s, or the steering angle.");
+      py::keep_alive<0, 1>(), "Return a NumberTarget for the three numbers of a command, or the first and the last.");
   Guarded(kind)
       .def(
           "odometry",
           [](const Loaded<Kind>& loaded) {
             const WheelOdometry& odometry = loaded.controller->odometry();
-            return std::make_tuple(odometry.x(), odometry.y(), odometry.heading(), odometry.linear(),
-                                   odometry.angular());
+            const PlanarMotion& velocity = odometry.velocity();
+            return std::make_tuple(odometry.x(), odometry.y(), odometry.heading(), velocity.forward, velocity.left,
+                                   velocity.turn);
           },
-          "Return x, y (m), heading (rad), m/s and rad/s.")
+          "Return x, y (m), heading (rad), m/s forward and to the left, and rad/s.")
       .def("limited_command", [](const Loaded<Kind>& loaded) { return loaded.controller->limited_command(); });
 }
 
@@ -141,8 +145,8 @@ void bind_joint_controllers(py::module_& module) {
 
 void bind_base_controllers(py::module_& module) {
   py::class_<BaseController::Settings>(module, "BaseSettings", "Timeout, odometry and limits of a base's controller.")
-      .def(py::init(&make_settings), py::arg("timeout"), py::arg("open_loop"), py::arg("window"), py::arg("linear"),
-           py::arg("angular"), "Limits: (least, most) or None of velocity, acceleration and jerk.");
+      .def(py::init(&make_settings), py::arg("timeout"), py::arg("open_loop"), py::arg("window"), py::arg("limits"),
+           "Limits of each number of a command: (least, most) or None of velocity, acceleration and jerk.");
   py::class_<DiffDriveController::Wheels>(module, "DiffDriveWheels", "The wheels of a differential drive.")
       .def(py::init([](std::vector<std::size_t> left, std::vector<std::size_t> right, double separation,
                        double left_radius, double right_radius) {
@@ -162,6 +166,26 @@ void bind_base_controllers(py::module_& module) {
       bind_controller<AckermannSteeringController, AckermannSteeringController::Wheels, BaseController::Settings>(
           module, "AckermannSteeringController", "Drives one joint and steers another.");
   bind_base(ackermann);
+  py::class_<MecanumDriveController::Wheels>(module, "MecanumWheels", "Wheels with rollers at 45 degrees.")
+      .def(py::init([](const std::array<std::size_t, 4>& joints, double k, double radius) {
+             return MecanumDriveController::Wheels{joints, k, radius};
+           }),
+           py::arg("joints"), py::arg("k"), py::arg("radius"),
+           "Joints: front left, back left, back right, front right.");
+  auto mecanum = bind_controller<MecanumDriveController, MecanumDriveController::Wheels, BaseController::Settings>(
+      module, "MecanumDriveController", "Drives four wheels with rollers in any direction.");
+  bind_base(mecanum);
+  py::class_<FourWheelSteeringController::Wheels>(module, "FourWheelSteeringWheels", "Driven and steered wheels.")
+      .def(py::init([](const std::array<std::size_t, 4>& driven, const std::array<std::size_t, 4>& steered,
+                       double track, double base, double radius, bool by_angles) {
+             return FourWheelSteeringController::Wheels{driven, steered, track, base, radius, by_angles};
+           }),
+           py::arg("driven"), py::arg("steered"), py::arg("track"), py::arg("base"), py::arg("radius"),
+           py::arg("by_angles"), "Joints: front left, front right, rear left, rear right.");
+  auto four =
+      bind_controller<FourWheelSteeringController, FourWheelSteeringController::Wheels, BaseController::Settings>(
+          module, "FourWheelSteeringController", "Drives and steers four wheels.");
+  bind_base(four);
 }
 
 JointTolerance to_tolerance(const std::array<double, 3>& t) { return {t[0], t[1], t[2]}; }
@@ -287,10 +311,11 @@ void bind_control(py::module_& core) {
       [](const World& world, ObjectId model) {
         const HoldWithGil hold(world.access());
         using Joint = std::pair<std::string, std::vector<std::string>>;
-        std::vector<std::tuple<std::string, std::vector<Joint>, std::vector<std::string>>> all;
+        std::vector<std::tuple<std::string, std::string, std::vector<Joint>, std::vector<std::string>>> all;
         for (const TransmissionDescription& each : world.models().description(model).transmissions) {
-          auto& [name, joints, of_actuators] = all.emplace_back();
+          auto& [name, type, joints, of_actuators] = all.emplace_back();
           name = each.name;
+          type = each.type;
           for (const TransmissionJoint& joint : each.joints) joints.emplace_back(joint.name, joint.hardware_interfaces);
           for (const TransmissionActuator& actuator : each.actuators) {
             of_actuators.insert(of_actuators.end(), actuator.hardware_interfaces.begin(),
@@ -300,7 +325,7 @@ void bind_control(py::module_& core) {
         return all;
       },
       py::arg("world"), py::arg("model"),
-      "Return the <transmission>s of a model: name, joints with their interfaces, interfaces of the actuators.");
+      "Return the <transmission>s of a model: name, type, joints with their interfaces, interfaces of the actuators.");
   bind_joint_controllers(module);
   bind_base_controllers(module);
   bind_trajectory_controller(module);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bubblesim/control/base_controllers.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -18,16 +19,17 @@ double mean_position(const RobotHardware& robot, const std::vector<std::size_t>&
   return sum / static_cast<double>(joints.size());
 }
 
+}  // namespace
+
 void require_length(const char* what, double length) {
   if (std::isfinite(length) && length > 0) return;
   throw InvalidInput(std::string("the ") + what + " of " + text(length) + " m is not usable: it must be above 0");
 }
 
-}  // namespace
-
-bool BaseController::set_command(double linear, double angular) {
-  if (!(std::abs(linear) <= kMaxSpeed && std::abs(angular) <= kMaxSpeed)) return false;
-  command_ = {linear, angular};
+bool BaseController::set_command(const Command& command) {
+  const auto usable = [](double number) { return std::abs(number) <= kMaxSpeed; };
+  if (!std::all_of(command.begin(), command.end(), usable)) return false;
+  command_ = command;
   is_new_ = true;
   return true;
 }
@@ -42,23 +44,26 @@ void BaseController::starting(RobotHardware& robot, double time) {
 
 void BaseController::update(RobotHardware& robot, double time, double period) {
   if (std::exchange(is_new_, false)) received_ = time;
-  const auto [distance, angle] = settings_.open_loop ? commanded(last_, period) : moved(robot, period);
-  odometry_.move(distance, angle, period);
+  odometry_.move(settings_.open_loop ? commanded(last_, period) : moved(robot), period);
   const bool is_late = settings_.timeout > 0 && time - received_ > settings_.timeout;
   const Command wanted = is_late ? Command{} : command_;
-  const Command next{settings_.linear.limit(wanted.linear, last_.linear, second_last_.linear, period),
-                     settings_.angular.limit(wanted.angular, last_.angular, second_last_.angular, period)};
+  Command next{};
+  for (std::size_t i = 0; i < next.size(); ++i) {
+    next[i] = settings_.limits[i].limit(wanted[i], last_[i], second_last_[i], period);
+  }
   second_last_ = std::exchange(last_, next);
   command_wheels(robot, next);
 }
 
-std::array<double, 2> BaseController::commanded(const Command& command, double period) const {
-  return {command.linear * period, command.angular * period};
+PlanarMotion BaseController::commanded(const Command& command, double period) const {
+  return {command[0] * period, command[1] * period, command[2] * period};
 }
 
 void BaseController::transfer(StateArchive& archive) {
   archive(odometry_, is_new_, received_);
-  for (Command* command : {&command_, &last_, &second_last_}) archive(command->linear, command->angular);
+  for (Command* command : {&command_, &last_, &second_last_}) {
+    for (double& number : *command) archive(number);
+  }
   transfer_wheels(archive);
 }
 
@@ -84,22 +89,22 @@ void DiffDriveController::begin(const RobotHardware& robot) {
   right_ = mean_position(robot, wheels_.right) * wheels_.right_radius;
 }
 
-std::array<double, 2> DiffDriveController::moved(const RobotHardware& robot, double) {
+PlanarMotion DiffDriveController::moved(const RobotHardware& robot) {
   const double left_before = left_;
   const double right_before = right_;
   begin(robot);
   const double left = left_ - left_before;
   const double right = right_ - right_before;
-  return {(left + right) / 2, (right - left) / wheels_.separation};
+  return {(left + right) / 2, 0, (right - left) / wheels_.separation};
 }
 
 void DiffDriveController::command_wheels(RobotHardware& robot, const Command& command) {
-  const double difference = command.angular * wheels_.separation / 2;
+  const double difference = command[2] * wheels_.separation / 2;
   for (const std::size_t joint : wheels_.left) {
-    robot.joints()[joint].command = (command.linear - difference) / wheels_.left_radius;
+    robot.joints()[joint].command = (command[0] - difference) / wheels_.left_radius;
   }
   for (const std::size_t joint : wheels_.right) {
-    robot.joints()[joint].command = (command.linear + difference) / wheels_.right_radius;
+    robot.joints()[joint].command = (command[0] + difference) / wheels_.right_radius;
   }
 }
 
@@ -115,20 +120,20 @@ void AckermannSteeringController::begin(const RobotHardware& robot) {
   rear_ = robot.joints()[wheels_.rear].position * wheels_.radius;
 }
 
-std::array<double, 2> AckermannSteeringController::moved(const RobotHardware& robot, double) {
+PlanarMotion AckermannSteeringController::moved(const RobotHardware& robot) {
   const double now = robot.joints()[wheels_.rear].position * wheels_.radius;
   const double distance = now - std::exchange(rear_, now);
-  return {distance, distance * std::tan(robot.joints()[wheels_.steer].position) / wheels_.wheel_base};
+  return {distance, 0, distance * std::tan(robot.joints()[wheels_.steer].position) / wheels_.wheel_base};
 }
 
-std::array<double, 2> AckermannSteeringController::commanded(const Command& command, double period) const {
-  const double distance = command.linear * period;
-  return {distance, distance * std::tan(command.angular) / wheels_.wheel_base};
+PlanarMotion AckermannSteeringController::commanded(const Command& command, double period) const {
+  const double distance = command[0] * period;
+  return {distance, 0, distance * std::tan(command[2]) / wheels_.wheel_base};
 }
 
 void AckermannSteeringController::command_wheels(RobotHardware& robot, const Command& command) {
-  robot.joints()[wheels_.rear].command = command.linear / wheels_.radius;
-  robot.joints()[wheels_.steer].command = command.angular;
+  robot.joints()[wheels_.rear].command = command[0] / wheels_.radius;
+  robot.joints()[wheels_.steer].command = command[2];
 }
 
 void AckermannSteeringController::transfer_wheels(StateArchive& archive) { archive(rear_); }

@@ -5,37 +5,39 @@
 
 namespace bubblesim::control {
 
-void WheelOdometry::move(double distance, double angle, double period) {
+void WheelOdometry::move(const PlanarMotion& motion, double period) {
   constexpr double kStraight = 1e-6;  // rad
-  const double before = heading_;
-  heading_ += angle;
-  if (std::abs(angle) < kStraight) {
-    x_ += distance * std::cos(before + angle / 2);
-    y_ += distance * std::sin(before + angle / 2);
-  } else {
-    const double radius = distance / angle;
-    x_ += radius * (std::sin(heading_) - std::sin(before));
-    y_ -= radius * (std::cos(heading_) - std::cos(before));
-  }
+  const double turn = motion.turn;
+  // The displacement in the frame before, for a velocity that is constant in the robot's frame.
+  const double along = std::abs(turn) < kStraight ? 1 : std::sin(turn) / turn;
+  const double across = std::abs(turn) < kStraight ? turn / 2 : (1 - std::cos(turn)) / turn;
+  const double x = along * motion.forward - across * motion.left;
+  const double y = across * motion.forward + along * motion.left;
+  x_ += x * std::cos(heading_) - y * std::sin(heading_);
+  y_ += x * std::sin(heading_) + y * std::cos(heading_);
+  heading_ += turn;
   if (!(period > 0)) return;
-  velocities_.emplace_back(distance / period, angle / period);
+  velocities_.push_back({motion.forward / period, motion.left / period, turn / period});
   if (velocities_.size() > window_) velocities_.pop_front();
-  linear_ = angular_ = 0;
-  for (const auto& [linear, angular] : velocities_) {
-    linear_ += linear / static_cast<double>(velocities_.size());
-    angular_ += angular / static_cast<double>(velocities_.size());
+  velocity_ = {};
+  const auto count = static_cast<double>(velocities_.size());
+  for (const PlanarMotion& each : velocities_) {
+    velocity_.forward += each.forward / count;
+    velocity_.left += each.left / count;
+    velocity_.turn += each.turn / count;
   }
 }
 
 void WheelOdometry::reset() {
   velocities_.clear();
-  x_ = y_ = heading_ = linear_ = angular_ = 0;
+  velocity_ = {};
+  x_ = y_ = heading_ = 0;
 }
 
 void WheelOdometry::transfer(StateArchive& archive) {
-  archive(x_, y_, heading_, linear_, angular_);
+  archive(x_, y_, heading_, velocity_.forward, velocity_.left, velocity_.turn);
   velocities_.resize(archive.count(velocities_.size()));
-  for (auto& [linear, angular] : velocities_) archive(linear, angular);
+  for (PlanarMotion& each : velocities_) archive(each.forward, each.left, each.turn);
 }
 
 }  // namespace bubblesim::control

@@ -208,8 +208,8 @@ TEST(DiffDriveController, TurnsTheWheelsByTheVelocityOfTheRobot) {
   settings.timeout = 0.25;
   DiffDriveController drive(wheels, settings);
   drive.starting(robot, 0);
-  EXPECT_TRUE(drive.set_command(1, 2));
-  EXPECT_FALSE(drive.set_command(std::nan(""), 2));
+  EXPECT_TRUE(drive.set_command({1, 0, 2}));
+  EXPECT_FALSE(drive.set_command({std::nan(""), 0, 2}));
   drive.update(robot, 0, kStep);
   EXPECT_NEAR(robot.joints()[0].command, (1 - 2 * 0.25) / 0.1, 1e-12);
   EXPECT_NEAR(robot.joints()[1].command, (1 + 2 * 0.25) / 0.2, 1e-12);

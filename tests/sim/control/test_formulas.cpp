@@ -89,27 +89,36 @@ TEST(SpeedLimits, LimitTheChangeOfTheAcceleration) {
 
 TEST(WheelOdometry, FollowsALine) {
   WheelOdometry odometry(10);
-  odometry.move(0.5, 0, 0.25);
+  odometry.move({0.5, 0, 0}, 0.25);
   EXPECT_DOUBLE_EQ(odometry.x(), 0.5);
   EXPECT_DOUBLE_EQ(odometry.y(), 0);
-  EXPECT_DOUBLE_EQ(odometry.linear(), 2);
+  EXPECT_DOUBLE_EQ(odometry.velocity().forward, 2);
 }
 
 TEST(WheelOdometry, FollowsAnArcExactly) {
   WheelOdometry odometry(10);
-  for (int i = 0; i < 4; ++i) odometry.move(3 * kPi / 8, kPi / 8, 0.1);  // a quarter of a circle of 3 m
+  for (int i = 0; i < 4; ++i) odometry.move({3 * kPi / 8, 0, kPi / 8}, 0.1);  // a quarter of a circle of 3 m
   EXPECT_NEAR(odometry.x(), 3, 1e-12);
+  EXPECT_NEAR(odometry.y(), 3, 1e-12);
+  EXPECT_NEAR(odometry.heading(), kPi / 2, 1e-12);
+}
+
+TEST(WheelOdometry, FollowsAnArcSidewaysExactly) {
+  WheelOdometry odometry(10);
+  for (int i = 0; i < 4; ++i) odometry.move({0, 3 * kPi / 8, kPi / 8}, 0.1);  // its left side leads along the arc
+  EXPECT_NEAR(odometry.x(), -3, 1e-12);
   EXPECT_NEAR(odometry.y(), 3, 1e-12);
   EXPECT_NEAR(odometry.heading(), kPi / 2, 1e-12);
 }
 
 TEST(WheelOdometry, AveragesVelocitiesOverItsWindow) {
   WheelOdometry odometry(2);
-  odometry.move(1, 0, 0.1);
-  odometry.move(0.1, 0.01, 0.1);
-  odometry.move(0.3, 0.03, 0.1);
-  EXPECT_NEAR(odometry.linear(), 2, 1e-12);
-  EXPECT_NEAR(odometry.angular(), 0.2, 1e-12);
+  odometry.move({1, 0, 0}, 0.1);
+  odometry.move({0.1, 0.2, 0.01}, 0.1);
+  odometry.move({0.3, 0.4, 0.03}, 0.1);
+  EXPECT_NEAR(odometry.velocity().forward, 2, 1e-12);
+  EXPECT_NEAR(odometry.velocity().left, 3, 1e-12);
+  EXPECT_NEAR(odometry.velocity().turn, 0.2, 1e-12);
 }
 
 TEST(Pid, SumsItsThreeParts) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// URDF's <transmission> is kept as data.
+// URDF's <transmission> and <ros2_control> are kept as data.
 #include <gtest/gtest.h>
 
 #include "bubblesim/scene_loader.hpp"
+#include "load/urdf/urdf_robot.hpp"
+#include "load/xml/xml_parser.hpp"
 
 namespace bubblesim::test::test_transmissions {
 namespace {
@@ -27,6 +29,38 @@ TEST(Transmission, HasItsJointsAndActuators) {
   EXPECT_EQ(transmission.joints.at(0).name, "axle");
   EXPECT_EQ(transmission.joints.at(0).hardware_interfaces.at(0), "hardware_interface/VelocityJointInterface");
   EXPECT_EQ(transmission.actuators.at(0).mechanical_reduction, -20);
+}
+
+TEST(Ros2Control, GivesItsJointsTheInterfacesOfTheirCommands) {
+  const ModelDescription robot = robot_with(
+      "<ros2_control name='system' type='system'>"
+      "<hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>"
+      "<joint name='slide'><command_interface name='position'><param name='min'>-15</param></command_interface>"
+      "<command_interface name='effort'/><state_interface name='position'/></joint>"
+      "<joint name='passive'><state_interface name='velocity'/></joint></ros2_control>");
+  ASSERT_EQ(robot.transmissions.size(), 1U);
+  const TransmissionDescription& system = robot.transmissions[0];
+  EXPECT_EQ(system.name, "system");
+  EXPECT_EQ(system.type, "ros2_control");
+  ASSERT_EQ(system.joints.size(), 2U);
+  EXPECT_EQ(system.joints[0].name, "slide");
+  EXPECT_EQ(system.joints[0].hardware_interfaces,
+            (std::vector<std::string>{"hardware_interface/PositionJointInterface",
+                                      "hardware_interface/EffortJointInterface"}));
+  EXPECT_EQ(system.joints[1].name, "passive");
+  EXPECT_TRUE(system.joints[1].hardware_interfaces.empty());
+}
+
+TEST(Ros2Control, WarnsOfACommandInterfaceThatIsUnknown) {
+  LoadContext context("r.urdf", ".");
+  const XmlElement root = parse_xml(
+      "<robot name='r'><link name='a'/><ros2_control name='s'><joint name='j'><command_interface name='current'/>"
+      "</joint></ros2_control></robot>",
+      "r.urdf", context.warnings());
+  const UrdfRobot robot = read_robot(root, context);
+  EXPECT_TRUE(robot.transmissions.at(0).joints.at(0).hardware_interfaces.empty());
+  ASSERT_EQ(context.warnings().size(), 1U);
+  EXPECT_NE(context.warnings()[0].message.find("current"), std::string::npos);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 
 from bubblesim.gazebo_plugins.control.controller import Controller, Robot, interface_name
 from bubblesim.gazebo_plugins.control.controller_types import CONTROLLERS
+from bubblesim.gazebo_plugins.control.own_controllers import own_controller
 from bubblesim.gazebo_plugins.control.ros_parameters import ControllerError, ControllerParameters, read_parameter
 from bubblesim.gazebo_plugins.plugin import Message
 from bubblesim.messages.names import did_you_mean, nearest_names
@@ -100,7 +101,7 @@ class ControllerManager:
         if not isinstance(values, dict) or "type" not in values:
             raise ControllerError(f"there is no parameter {full}/type: load the parameters of '{name}' before it")
         parameters = ControllerParameters(full, values)
-        kind = CONTROLLERS.get(parameters.text("type"))
+        kind = CONTROLLERS.get(parameters.text("type")) or own_controller(parameters.text("type"))
         if kind is None:
             hint = did_you_mean(nearest_names(values["type"], sorted(CONTROLLERS)))
             raise ControllerError(f"{full}: the type {values['type']} is not supported{hint}")

@@ -3,7 +3,12 @@
 
 from __future__ import annotations
 
-from bubblesim.gazebo_plugins.control.base_controllers import AckermannSteering, DiffDrive
+from bubblesim.gazebo_plugins.control.base_controllers import (
+    AckermannSteering,
+    DiffDrive,
+    FourWheelSteering,
+    MecanumDrive,
+)
 from bubblesim.gazebo_plugins.control.controller import Controller
 from bubblesim.gazebo_plugins.control.gripper_controller import GripperAction
 from bubblesim.gazebo_plugins.control.joint_controllers import (
@@ -14,6 +19,7 @@ from bubblesim.gazebo_plugins.control.joint_controllers import (
     PidJointController,
     of_kind,
 )
+from bubblesim.gazebo_plugins.control.sensor_controllers import ForceTorqueSensors, ImuSensors
 from bubblesim.gazebo_plugins.control.trajectory_controller import JointTrajectory
 
 CONTROLLERS: dict[str, type[Controller]] = {
@@ -26,7 +32,11 @@ CONTROLLERS: dict[str, type[Controller]] = {
     "effort_controllers/JointPositionController": PidJointController,
     "effort_controllers/JointTrajectoryController": JointTrajectory,
     "effort_controllers/JointVelocityController": of_kind(PidJointController, "effort", "velocity"),
+    "force_torque_sensor_controller/ForceTorqueSensorController": ForceTorqueSensors,
+    "four_wheel_steering_controller/FourWheelSteeringController": FourWheelSteering,
+    "imu_sensor_controller/ImuSensorController": ImuSensors,
     "joint_state_controller/JointStateController": JointStateController,
+    "mecanum_drive_controller/MecanumDriveController": MecanumDrive,
     "position_controllers/GripperActionController": of_kind(GripperAction, "position"),
     "position_controllers/JointGroupPositionController": of_kind(ForwardGroupController, "position"),
     "position_controllers/JointPositionController": of_kind(ForwardController, "position"),

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gazebo_ros_control: the joints with a <transmission>, and their controllers."""
+"""gazebo_ros_control and gz_ros2_control: joints with a <transmission> or in a <ros2_control>, their controllers."""
 
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 
 from bubblesim._core import control
 from bubblesim.gazebo_plugins.control.controller import INTERFACES, Joint, Robot, read_gains
@@ -23,15 +24,21 @@ _KINDS = {
 _GAINS = "gazebo_ros_control/pid_gains"
 
 
+_ONLY_STATES = "ros2_control"  # the type of transmissions whose joints may have no command interface
+
+
 class RosControl(Plugin):
     """The controllers run before each physics substep; <controlPeriod> has no effect."""
+
+    ignored: Sequence[str] = ("controlPeriod", "robotParam", "robotSimType", "legacyModeNS", "eStopTopic")
+    in_namespace_of_model = True
 
     def __init__(self, context: PluginContext) -> None:
         """Read the transmissions of the model, and advertise the services of the controller manager."""
         super().__init__(context)
         p = self.parameters
-        p.ignore("controlPeriod", "robotParam", "robotSimType", "legacyModeNS", "eStopTopic")
-        self.enter_namespace(of_model=True)
+        p.ignore(*self.ignored)
+        self.enter_namespace(of_model=self.in_namespace_of_model)
         p.check()
         if not hasattr(self.bridge, "search_parameter"):
             raise p.fail("filename", "needs ROS 1, which has a parameter server")
@@ -41,13 +48,14 @@ class RosControl(Plugin):
             write_line(sys.stderr, f"warning: {p.title}: the model has no <transmission> of a joint")
         gains = self._gains(namespace)
         entries = [
-            (name, joint.handle, INTERFACES[joint.kinds[0]], gains.get(name))
+            (name, joint.handle, INTERFACES[joint.kinds[0] if joint.kinds else "effort"], gains.get(name))
             for name, joint in joints.items()
-            if joint.kinds
         ]
         manager = control.ControllerManager(self.world, context.model, entries)
         context.endpoints.append(manager.remove)
-        robot = Robot(self, manager, joints, namespace, {name: joint.kinds[0] for name, joint in joints.items()})
+        robot = Robot(
+            self, manager, joints, namespace, {name: joint.kinds[0] for name, joint in joints.items() if joint.kinds}
+        )
         self._controllers = ControllerManager(robot)
         context.endpoints.append(self._controllers.close)
 
@@ -60,10 +68,10 @@ class RosControl(Plugin):
         self._controllers.reset()
 
     def _joints(self) -> dict[str, Joint]:
-        """Return the joints of the transmissions that have an interface."""
+        """Return the joints of the transmissions; those of <ros2_control> may have states only."""
         handles = {self.world.name(part): part for part in self.parts_of_model() if self.world.kind(part) == "joint"}
         found: dict[str, Joint] = {}
-        for transmission, joints, of_actuators in control.transmissions(self.world, self.context.model):
+        for transmission, kind, joints, of_actuators in control.transmissions(self.world, self.context.model):
             for name, interfaces in joints:
                 kinds = [
                     _KINDS[last] for each in interfaces or of_actuators if (last := each.rpartition("/")[2]) in _KINDS
@@ -73,7 +81,7 @@ class RosControl(Plugin):
                     problem = f"the model has no joint '{name}'{did_you_mean(nearest_names(name, sorted(handles)))}"
                 elif self.world.joint_axes(handles[name]) != 1:
                     problem = f"the joint '{name}' does not move along one axis"
-                elif not kinds:
+                elif not kinds and kind != _ONLY_STATES:
                     problem = f"the joint '{name}' has no <hardwareInterface> of {', '.join(_KINDS)}"
                 if problem is not None:
                     text = f"warning: {self.parameters.title}: transmission '{transmission}' has no effect: {problem}"
@@ -93,3 +101,11 @@ class RosControl(Plugin):
             for name in parameters.names_given():
                 gains.setdefault(name, read_gains(parameters.below(name)))
         return gains
+
+
+class Ros2Control(RosControl):
+    """gz_ros2_control and gazebo_ros2_control, with the services and parameters of ROS 1; <parameters> is ignored."""
+
+    ignored = ("parameters", "controller_manager_name", "hold_joints", "position_proportional_gain", "robot_param",
+               "robot_param_node", "ros")  # fmt: skip
+    in_namespace_of_model = False

@@ -103,6 +103,13 @@ class ControllerParameters:
             raise self.fail(key, "a string or a list of strings")
         return names
 
+    def pair(self, key: str) -> list[str]:
+        """Return a list of two strings."""
+        names = self.names(key)
+        if len(names) != 2:
+            raise self.fail(key, "two strings, left and right")
+        return names
+
     def numbers(self, key: str, count: int, default: list[float]) -> list[float]:
         """Return a list of ``count`` numbers."""
         value = self._values.get(key, default)

@@ -132,14 +132,15 @@ class JointTrajectory(Controller):
         self._follow(message, None, _float)
 
     def _on_goal(self, goal_id: str, goal: Mapping[str, Any]) -> int:
-        if self.state != "running":
-            self.warn("a goal is rejected: the controller does not run")
-            return REJECT
         try:
+            if self.state != "running":
+                raise _RefusedError(_INVALID_GOAL, "the controller does not run")
             tolerances = self._tolerances(goal)
             self._follow(goal["trajectory"], tolerances, _seconds)
         except ValueError as error:
             self.warn(f"a goal is rejected: {error}")
+            code = error.code if isinstance(error, _RefusedError) else _INVALID_GOAL
+            self._actions.finish(goal_id, "be rejected", {"error_code": code, "error_string": str(error)})
             return REJECT
         self._end_goal("be canceled", _SUCCESSFUL, "a new goal has arrived")
         self._goal = goal_id
@@ -177,6 +178,8 @@ class JointTrajectory(Controller):
             for name in self._joints
         ]
         end = knots[self._joints.index(names[0])][-1][0]
+        if end < now:
+            raise _RefusedError(_OLD_STAMP, f"all its points are over: the last one is {now - end:.3f} s ago")
         for index, of_joint in enumerate(knots):
             if not of_joint:  # it stays where it is
                 of_joint.append((end, self.core.at(now)[0][index], 0.0, 0.0))

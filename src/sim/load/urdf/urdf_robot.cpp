@@ -2,6 +2,7 @@
 #include "load/urdf/urdf_robot.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <set>
@@ -82,6 +83,32 @@ class PartReader {
       transmission.actuators.push_back({child.given_name(), read_reduction(reduction, path), interfaces});
     }
     return transmission;
+  }
+
+  /// A <ros2_control>: its joints with the interfaces of ros_control that correspond to their command interfaces.
+  TransmissionDescription ros2_control(const XmlElement& element) {
+    TransmissionDescription system;
+    system.name = element.given_name();
+    system.source = element.source();
+    system.type = "ros2_control";
+    for (const XmlElement& child : element.children) {
+      if (child.name != "joint") continue;
+      TransmissionJoint joint{child.given_name(), {}};
+      for (const XmlElement& interface : child.children) {
+        if (interface.name != "command_interface") continue;
+        std::string kind = interface.given_name();
+        if (kind != "position" && kind != "velocity" && kind != "effort") {
+          context_.warn(
+              interface.source(), path_ + "/" + system.name + "/" + joint.name,
+              "<command_interface name='" + kind + "'> has no effect: it must be position, velocity or effort");
+          continue;
+        }
+        kind.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(kind.front())));
+        joint.hardware_interfaces.push_back("hardware_interface/" + kind + "JointInterface");
+      }
+      system.joints.push_back(std::move(joint));
+    }
+    return system;
   }
 
  private:
@@ -349,6 +376,7 @@ UrdfRobot read_robot(const XmlElement& robot, LoadContext& context) {
     if (child.name == "link") read.links.push_back(reader.link(child));
     if (child.name == "joint") read.joints.push_back(reader.joint(child));
     if (child.name == "transmission") read.transmissions.push_back(reader.transmission(child));
+    if (child.name == "ros2_control") read.transmissions.push_back(reader.ros2_control(child));
   }
   TreeCheck(read, context).check();
   return read;

@@ -33,6 +33,7 @@ _FINAL = {
         GoalStatus.ACTIVE: GoalStatus.PREEMPTED,
         GoalStatus.PREEMPTING: GoalStatus.PREEMPTED,
     },
+    "be rejected": {GoalStatus.PENDING: GoalStatus.REJECTED},
 }
 
 
@@ -88,7 +89,10 @@ class ActionServer:
         self._publish_status()
 
     def finish(self, goal_id: str, how: str, result: Message) -> None:
-        """End a goal and publish its result; ``how`` is "succeed", "abort" or "be canceled"."""
+        """End a goal and publish its result.
+
+        :param how: "succeed", "abort" or "be canceled"; "be rejected" while ``handle_goal`` decides about it.
+        """
         goal = self._live_goal(goal_id)
         self._end(goal, self._next_of(goal, _FINAL, how), result)
 
