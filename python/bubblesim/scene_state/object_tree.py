@@ -13,6 +13,11 @@ from bubblesim.scene_state.scene_edits import SceneEdits, relative
 WORLD = -1
 
 
+def is_script_object(world: Any, handle: int) -> bool:
+    """Return whether an object is nothing but a script, which acts for its parent."""
+    return str(world.kind(handle)) == "frame" and str(world.frame_kind(handle)) == "script"
+
+
 class ObjectTree:
     """The tree of a world. Changes of the scene's own objects are kept in ``edits``; -1 is the world."""
 

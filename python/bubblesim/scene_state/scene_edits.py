@@ -39,6 +39,8 @@ class SceneEdits:
     """Created shapes, by the handle of their model."""
     sources: dict[int, str] = field(default_factory=dict)
     """SDFormat strings of models that callers have added."""
+    foreign: dict[int, list[int]] = field(default_factory=dict)
+    """What callers have added from files of CoppeliaSim: its models, by the object at the top."""
     originals: dict[int, str] = field(default_factory=dict)
     """Names of the file's models of which others are copies."""
     colours: SetColours = field(default_factory=SetColours)
@@ -107,6 +109,7 @@ class SceneEdits:
                 self.placed,
                 self.shapes,
                 self.sources,
+                self.foreign,
             ]
             tables += [self.originals, self.colours.links, self.numbers.links]
             tables += [self._first_names, self._first_parents]

@@ -166,7 +166,9 @@ class ChildScript:
     def _process_image(self) -> None:
         """Let the script process the image of its camera; keep what readVisionSensor returns."""
         simulation, handle, process = self.host.simulation, self.object_handle, self._hooks["sysCall_vision"]
-        if process is None or sensor_kind_of(simulation, handle) != "camera":
+        if is_script_object(simulation.world, handle):
+            handle = int(simulation.world.parent(handle))
+        if process is None or handle < 0 or sensor_kind_of(simulation, handle) != "camera":
             return
         image = _core.read_camera(simulation, handle)
         columns, rows, angle = _core.camera_optics(simulation, handle)

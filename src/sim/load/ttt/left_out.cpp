@@ -79,6 +79,7 @@ LeftOut left_out_of(const SceneFile& file, const Structure& structure) {
     if (script.kind == ScriptKind::kChild && script.is_disabled)
       left_out.add("script that is disabled: not run", alias);
   }
+  for (const DamagedPart& part : file.damaged) left_out.add("damaged part that is left out: " + part.what, part.object);
   for (const auto& [what, count] : file.left_out) {
     for (int i = 0; i < count; ++i) left_out.add(what + ": left out", "");
   }

@@ -14,7 +14,8 @@ double step_of(std::optional<double> step, double otherwise) {
 void read_time_step(const TagList& sim, Settings& settings) {
   std::optional<double> step = sim.number("", "_t3");
   if (!step) step = sim.number("St3", "");
-  if (auto bytes = sim.item("St2"); bytes && !step) step = 1e-6 * static_cast<double>(bytes->u64());
+  if (auto bytes = sim.item("St2"); bytes && bytes->left() >= sizeof(std::uint64_t) && !step)
+    step = 1e-6 * static_cast<double>(bytes->u64());
   if (!step) step = sim.number("Sts", "");
   settings.time_step = step_of(step, settings.time_step);
 }
@@ -23,9 +24,11 @@ void read_dynamics(const TagList& dyn, Settings& settings) {
   for (const char* tag : {"_n3", "En3", "En2", "Eng"}) {
     auto bytes = dyn.item(tag);
     if (!bytes) continue;
-    settings.engine = bytes->i32();
-    const auto gravity = bytes->numbers(3, std::string_view(tag) == "_n3");
-    settings.gravity = {gravity[0], gravity[1], gravity[2]};
+    note_damage(dyn.damage(), [&] {
+      settings.engine = bytes->i32();
+      const auto gravity = bytes->numbers(3, std::string_view(tag) == "_n3");
+      settings.gravity = {gravity[0], gravity[1], gravity[2]};
+    });
     break;
   }
   std::optional<double> step = dyn.number("Stp", "_tp");
