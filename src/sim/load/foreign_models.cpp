@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "bubblesim/error.hpp"
@@ -58,7 +57,7 @@ class Renaming {
   void rename(std::vector<SensorDescription>& sensors) const {
     for (SensorDescription& sensor : sensors) {
       rename_part(sensor);
-      if (auto* sonar = std::get_if<SonarDescription>(&sensor.kind)) {
+      if (auto* sonar = sensor.kind.get_if<SonarDescription>()) {
         for (std::string& link : sonar->detects) extend(link);
       }
     }

@@ -13,6 +13,7 @@ from bubblesim import _core
 from bubblesim.messages.names import did_you_mean
 from bubblesim.program.output import write_line
 from bubblesim.scene_state import log, problems
+from bubblesim.scene_state.object_tree import is_script_object
 from bubblesim.scene_state.problems import Problem
 from bubblesim.scripting.allowed_programs import is_allowed
 from bubblesim.scripting.caller import Hook

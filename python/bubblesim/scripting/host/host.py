@@ -16,6 +16,7 @@ from bubblesim._core.messages import RosVersion
 from bubblesim.both_bridges import bridge_of
 from bubblesim.program.output import write_line
 from bubblesim.scene_state.log import Log
+from bubblesim.scene_state.object_tree import is_script_object
 from bubblesim.scene_state.problems import Problem
 from bubblesim.scene_state.shared_data import SharedData
 from bubblesim.scripting.api.ik.ik_module import SimIk

@@ -6,6 +6,7 @@ namespace {
 
 constexpr double kShortest = 1e-5;
 constexpr double kLongest = 10;
+constexpr double kMostGravity = 1e4;  // m/s^2
 
 double step_of(std::optional<double> step, double otherwise) {
   return step && *step >= kShortest && *step <= kLongest ? *step : otherwise;
@@ -25,9 +26,12 @@ void read_dynamics(const TagList& dyn, Settings& settings) {
     auto bytes = dyn.item(tag);
     if (!bytes) continue;
     note_damage(dyn.damage(), [&] {
+      const std::size_t start = bytes->offset();
       settings.engine = bytes->i32();
-      const auto gravity = bytes->numbers(3, std::string_view(tag) == "_n3");
-      settings.gravity = {gravity[0], gravity[1], gravity[2]};
+      const auto n = bytes->numbers(3, std::string_view(tag) == "_n3");
+      const Vector3 gravity(n[0], n[1], n[2]);
+      if (!(gravity.norm() <= kMostGravity)) fail_at(start, "gravity is out of range");
+      settings.gravity = gravity;
     });
     break;
   }

@@ -9,10 +9,11 @@ namespace {
 
 constexpr int kDeepest = 64;
 constexpr double kLeastMass = 0.001;  // stands for 0
-constexpr double kMost = 1e9;         // kg or m
+constexpr double kMostMass = 1e6;     // kg
+constexpr double kMostSize = 1e5;     // m
 
-void require_sane(double value, double low, const char* what, std::size_t offset) {
-  if (value < low || value > kMost) fail_at(offset, std::string(what) + " is out of range");
+void require_sane(double value, double low, double high, const char* what, std::size_t offset) {
+  if (value < low || value > high) fail_at(offset, std::string(what) + " is out of range");
 }
 
 /// Moments of inertia, divided by the mass, with their frame.
@@ -70,8 +71,8 @@ class ShapeReader {
  private:
   void read_outermost(const TagList& body, std::size_t offset) {
     const double mass = body.number("Mas", "_as").value_or(0);
-    note_damage(body.damage(), [&] { require_sane(mass, 0, "the mass", offset); });
-    shape_.mass = mass > 0 && mass <= kMost ? mass : kLeastMass;
+    note_damage(body.damage(), [&] { require_sane(mass, 0, kMostMass, "the mass", offset); });
+    shape_.mass = mass > 0 && mass <= kMostMass ? mass : kLeastMass;
     note_damage(body.damage(), [&] { read_inertia(body, shape_); });
   }
 
@@ -96,6 +97,7 @@ class ShapeReader {
     Part part;
     note_damage(mesh.damage(), [&] { find_arrays(mesh, part, start); });
     part.frame = mesh.position_first("Ppf", "_pf").value_or(Pose());
+    if (!(part.frame.position.norm() <= kMostSize)) part.frame.position = Vector3();
     part.is_convex = (mesh.u8("Va2").value_or(0) & 1U) != 0 || (body.u8("Var").value_or(0) & 4U) != 0;
     part.is_wireframe = (mesh.u8("Var").value_or(0) & 4U) != 0;
     note_damage(mesh.damage(), [&] { read_primitive(mesh, part); });
@@ -144,7 +146,7 @@ class ShapeReader {
     const int kind = bytes->i32();
     if (kind < 0 || kind > static_cast<int>(PrimitiveKind::kCapsule)) return;  // a later kind is a mesh
     const std::vector<double> size = bytes->numbers(3, are_doubles);
-    for (const double length : size) require_sane(length, -kMost, "the size of a primitive", start);
+    for (const double length : size) require_sane(length, -kMostSize, kMostSize, "the size of a primitive", start);
     part.primitive = static_cast<PrimitiveKind>(kind);
     part.size = {size[0], size[1], size[2]};
     part.has_hole = mesh.number("Pp2", "_p2").value_or(0) > 0;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kMostObjects = 200000;
 constexpr std::size_t kMostTriangles = 20'000'000;
+constexpr double kFarthest = 1e4;  // m, from the parent
 constexpr int kMostTexturePixels = 8192;
 
 const std::map<std::string_view, const char*>& other_items() {
@@ -52,6 +53,11 @@ Object read_common(const TagList& list, std::string_view tag, std::size_t offset
   object.handle = ids->i32();
   object.parent = ids->i32();
   object.pose = list.rotation_first("Cfq", "_fq").value_or(Pose());
+  note_damage(list.damage(), [&] {
+    if (object.pose.position.norm() <= kFarthest) return;
+    object.pose.position = Vector3();
+    fail_at(offset, "the position is out of range");
+  });
   object.old_name = list.text("Nme").value_or("");  // with `#0` for copies
   object.alias = list.text("Ali").value_or(object.old_name.substr(0, object.old_name.find('#')));
   const auto base = list.u8("Va3") ? list.u8("Va3") : list.u8("Va2") ? list.u8("Va2") : list.u8("Var");

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+from pathlib import Path
 
 from bubblesim._core import StandIn, sensor_kind
 from bubblesim.scene_state.scene_edits import Hold, relative

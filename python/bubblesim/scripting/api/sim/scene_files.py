@@ -17,9 +17,9 @@ _FOREIGN = (".ttt", ".ttm")
 
 
 class SceneFileFunctions(CreatedObjectFunctions):
-    """Of a path only the name of the file counts: 'robots/arm.ttm' is the model 'arm' of the folders that are searched. A
-    Python script, and a client of a node with --remote-trusted, can also give the path of an .sdf, .ttt or .ttm file; an
-    .sdf file of the same name beside it comes first."""
+    """Of a path only the name of the file counts: 'robots/arm.ttm' is the model 'arm' of the folders that are searched.
+    A Python script, and a client of a node with --remote-trusted, can also give the path of an .sdf, .ttt or .ttm file;
+    an .sdf file of the same name beside it comes first."""
 
     @for_remote_only
     def loadScene(self, file: str) -> Any:
