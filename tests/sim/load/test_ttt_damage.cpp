@@ -92,6 +92,19 @@ TEST(TttDamage, LeavesOutMeshesWithTrianglesBeyondTheVertices) {
   EXPECT_TRUE(read_scene_file(bytes).objects.at(0).as<Shape>()->parts.at(0).triangles->empty());
 }
 
+TEST(TttDamage, LeavesOutMeshesWithoutAnyArea) {
+  const auto parts = [](std::initializer_list<float> points) {
+    const std::string mesh = item("Ver", floats(points)) + item("Ind", ints({0, 1, 2}));
+    const std::string own = item("Ge2", item("Gst", "EOO" + mesh + "EOO") + "EOO");
+    const std::string bytes = file({{"SHP", 1, -1, "x", {1, 0, 0, 0, 0, 0, 0}, "", own}});
+    return std::pair(read_scene_file(bytes).objects.at(0).as<Shape>()->parts.at(0).triangles->size(), noted(bytes));
+  };
+  EXPECT_EQ(parts({0, 0, 0, 1, 0, 0, 0, 1e-3F, 0}).first, 1U);
+  EXPECT_EQ(parts({0, 0, 0, 1, 0, 0, 2, 0, 0}).first, 0U);
+  EXPECT_TRUE(holds(parts({1, 1, 1, 1, 1, 1, 1, 1, 1}).second, "no triangle with an area"));
+  EXPECT_TRUE(holds(parts({0, 0, 0, 1e7F, 0, 0, 0, 1e7F, 0}).second, "50 km"));
+}
+
 TEST(TttDamage, LeavesOutCompoundsThatNestTooDeep) {
   std::string compound = "EOO";
   for (int i = 0; i < 20'000; ++i) compound = item("Wrp", compound) + "EOO";

@@ -59,6 +59,13 @@ std::vector<std::string> LeftOut::lines() const {
 
 LeftOut left_out_of(const SceneFile& file, const Structure& structure) {
   LeftOut left_out;
+  for (const Body& body : structure.bodies) {
+    const Object& object = file.objects[static_cast<std::size_t>(body.shape)];
+    if (object.as<Shape>()->has_velocity) left_out.add("initial velocity: the body starts at rest", object.alias);
+  }
+  for (const Collection& collection : file.collections) {
+    left_out.add("saved collection: proximity sensors use it, scripts do not find it", collection.name);
+  }
   for (const Object& object : file.objects) {
     if (const std::string kind = object_kind(object); !kind.empty()) left_out.add(kind, object.alias);
     if (const auto* sensor = object.as<VisionSensor>()) {

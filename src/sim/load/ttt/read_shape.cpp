@@ -16,6 +16,19 @@ void require_sane(double value, double low, double high, const char* what, std::
   if (value < low || value > high) fail_at(offset, std::string(what) + " is out of range");
 }
 
+/// Whether a triangle is none but for rounding: readers of meshes drop the others.
+bool has_area(const Vertices& vertices, const std::array<std::uint32_t, 3>& triangle) {
+  constexpr double kLeastSine = 1e-5;
+  const auto corner = [&](std::size_t i) {
+    const auto& v = vertices[triangle[i]];
+    return Vector3(v[0], v[1], v[2]);
+  };
+  const Vector3 a = corner(1) - corner(0);
+  const Vector3 b = corner(2) - corner(0);
+  const double longest = std::max({a.squaredNorm(), b.squaredNorm(), Vector3(b - a).squaredNorm()});
+  return longest > 0 && a.cross(b).norm() > kLeastSine * longest;
+}
+
 /// Moments of inertia, divided by the mass, with their frame.
 void read_inertia(const TagList& body, Shape& shape) {
   if (const auto com = body.numbers("", "Com", 3); !com.empty()) {
@@ -60,6 +73,8 @@ class ShapeReader {
     shape_.is_static = (bits & 0x80U) == 0;
     shape_.is_respondable = (list.u8("Ss3").value_or(list.u8("Ss2").value_or(0)) & 1U) != 0;
     shape_.respondable_mask = list.u16("Dc2").value_or(0xffff);
+    const std::vector<double> velocity = list.numbers("Idv", "_dv", 6);
+    shape_.has_velocity = std::any_of(velocity.begin(), velocity.end(), [](double each) { return each != 0; });
     const TagList geometry = list.list("Ge2");
     if (auto mesh = geometry.item("Gst")) read_mesh(*mesh, true);
     if (auto compound = geometry.item("Gsg")) read_compound(*compound, true, 0);
@@ -122,6 +137,15 @@ class ShapeReader {
       for (const std::uint32_t corner : triangle) {
         if (corner >= vertices->size()) fail_at(start, "a triangle has a corner that is no vertex of its mesh");
       }
+    }
+    for (const auto& vertex : *vertices) {
+      for (const float number : vertex) {
+        if (std::abs(number) > kMostSize / 2) fail_at(start, "a vertex is more than 50 km from its shape: no mesh");
+      }
+    }
+    const auto is_wide = [&](const auto& triangle) { return has_area(*vertices, triangle); };
+    if (!triangles->empty() && std::none_of(triangles->begin(), triangles->end(), is_wide)) {
+      fail_at(start, "the mesh has no triangle with an area");
     }
     sources_.triangles_left -= triangles->size();
     part.vertices = std::move(vertices);

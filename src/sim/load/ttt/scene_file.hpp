@@ -43,6 +43,7 @@ struct Part {
 struct Shape {
   bool is_static = true;
   bool is_respondable = false;
+  bool has_velocity = false;           ///< at the start
   unsigned respondable_mask = 0xffff;  ///< low byte: with shapes of the same tree, high byte: with others
   double mass = 0.001;
   Vector3 centre_of_mass;                 ///< in the shape's frame
