@@ -55,6 +55,7 @@ class ChildScripts final : public PythonSystem {
 
   void after_call() override;
 
+  bool python_of_foreign_scenes_;
   bool finished_ = false;
   std::atomic<int> failures_{0};
   std::atomic<int> disabled_{0};

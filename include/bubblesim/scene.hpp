@@ -365,6 +365,9 @@ struct ModelDescription {
   /// Whether scripts see the model itself. If not, it is only what moves together: in the tree are those of its parts
   /// that have a place, and the others have handles but no parent, no child and no path.
   bool is_object = true;
+  /// Whether it was converted from a file of another simulator, which may have come from anywhere: its scripts in
+  /// Python run only if that is allowed.
+  bool is_foreign = false;
 };
 
 /// Reaction to a divergence of the physics.

@@ -43,4 +43,11 @@ std::shared_ptr<const Scene> empty_scene();
 ModelDescription load_model(const std::string& text, const std::filesystem::path& folder,
                             std::vector<Problem>* warnings = nullptr);
 
+/// Reads a file of CoppeliaSim as models for a scene that runs, at their poses in the file and without a floor. Names
+/// of models, links, joints, sensors and frames get the suffix, so that they are new in that scene; aliases, and so the
+/// paths of scripts, stay. Objects without physics belong to the first model. Throws SceneError, also for a file
+/// without shapes.
+std::vector<ModelDescription> load_foreign_models(const std::filesystem::path& file, const std::string& suffix,
+                                                  std::vector<Problem>* warnings = nullptr);
+
 }  // namespace bubblesim

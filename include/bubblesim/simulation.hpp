@@ -110,6 +110,8 @@ class Simulation {
   /// Adds a model with its sensors, and calls model_added() of the systems. Throws like World::add_model; nothing is
   /// changed then. Adds warnings to `warnings`, unless it is null.
   ObjectId add_model(ModelDescription model, std::vector<Problem>* warnings = nullptr);
+  /// Adds several models at once, whose parts may be below each other in the tree. Throws likewise.
+  std::vector<ObjectId> add_models(std::vector<ModelDescription> models, std::vector<Problem>* warnings = nullptr);
   /// Calls model_removing() of the systems, and removes a model with its sensors. Throws like World::remove_model.
   void remove_model(ObjectId model);
 

@@ -18,6 +18,9 @@ class WorldModels : public WorldPart {
   /// Adds a model at the pose of its description. Throws SceneError with all problems of the model, also when its name
   /// is taken, and Diverged after a divergence. Adds warnings to `warnings`, unless it is null.
   ObjectId add(ModelDescription model, std::vector<Problem>* warnings = nullptr);
+  /// Adds several models at once, whose parts may have places (TreePlace) below each other's. Throws likewise; nothing
+  /// is added then.
+  std::vector<ObjectId> add(std::vector<ModelDescription> models, std::vector<Problem>* warnings = nullptr);
   /// Removes a model with all its objects; their handles become invalid. Throws InvalidInput for objects of other kinds
   /// and for nested models, and Diverged after a divergence, unless the model is one of World::diverged_models().
   void remove(ObjectId model);

@@ -112,17 +112,26 @@ ScriptFiles scripts_to_run(const Simulation& simulation, const ScriptOptions& op
   return scripts;
 }
 
+/// Folders for what scripts include. Those of a foreign scene are in the folder of its conversion, and expect their
+/// files beside the scene.
+std::vector<std::filesystem::path> search_paths_of(const Simulation& simulation, const ScriptOptions& options) {
+  std::vector<std::filesystem::path> folders = options.search_paths;
+  const std::filesystem::path& file = simulation.scene().file;
+  if (is_foreign_scene(file)) folders.push_back(std::filesystem::absolute(file).parent_path());
+  return folders;
+}
+
 }  // namespace
 
 ChildScripts::ChildScripts(PythonEngine& engine, const ScriptOptions& options)
-    : PythonSystem(engine, "the script host") {
+    : PythonSystem(engine, "the script host"), python_of_foreign_scenes_(options.python_of_foreign_scenes) {
   with_python([&] {
     const auto& [interpreter, runner, bridge] = engine.objects();
     const py::object host_class = py::module_::import("bubblesim.scripting.host.host").attr("ScriptHost");
-    methods_->bind(host_class(runner, bridge, scripts_to_run(engine.runner().simulation(), options),
-                              options.search_paths, py::arg("lua_unsafe") = options.lua_unsafe,
-                              py::arg("allowed_programs") = options.allowed_programs,
-                              py::arg("watch") = options.watch));
+    methods_->bind(
+        host_class(runner, bridge, scripts_to_run(engine.runner().simulation(), options),
+                   search_paths_of(engine.runner().simulation(), options), py::arg("lua_unsafe") = options.lua_unsafe,
+                   py::arg("allowed_programs") = options.allowed_programs, py::arg("watch") = options.watch));
     if (engine.runner().state() != RunState::kStopped) methods_->start();
   });
 }
@@ -143,6 +152,7 @@ void ChildScripts::after_call() {
 void ChildScripts::model_added(World& world, ObjectId model) {
   ScriptFiles scripts = scripts_of(world.models().description(model), world.tree().path(model));
   add_placed(world, model, scripts);
+  if (world.models().description(model).is_foreign) scripts = trusted_of(scripts, python_of_foreign_scenes_);
   for (const auto& [path, file] : scripts) {
     with_python([&, &path = path, &file = file] { methods_->self.attr("add_script")(path, file); });
   }

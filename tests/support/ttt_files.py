@@ -56,14 +56,23 @@ def obscured(script: str) -> bytes:
     return bytes(data)
 
 
-def script(owner: int, content: str, language: str = "lua", kind: int = 1) -> bytes:
+def _script_list(owner: int, content: str, language: str, kind: int) -> bytes:
     fields = item("Si2", struct.pack("<3i", 900 + owner + kind, owner, kind)) + item("Ste", obscured(content))
-    return item("LST", fields + item("Va2", b"\x08") + item("Lne", text(language)) + b"EOO")
+    return fields + item("Va2", b"\x08") + item("Lne", text(language)) + b"EOO"
 
 
-def write(file: Path, *parts: bytes) -> Path:
-    """Write a scene that is not packed."""
-    content = b"".join(parts) + item("ENV", b"EOO") + b"EOF"
+def script(owner: int, content: str, language: str = "lua", kind: int = 1) -> bytes:
+    return item("LST", _script_list(owner, content, language, kind))
+
+
+def script_object(handle: int, owner: int, content: str, language: str = "lua") -> bytes:
+    """Return a script as files of V4.7 and later have it: an object below the one for which it acts."""
+    return thing("SCT", handle, owner, "Script", item("Soo", _script_list(handle, content, language, 1)))
+
+
+def write(file: Path, *parts: bytes, is_scene: bool = True) -> Path:
+    """Write a scene, or a model, that is not packed."""
+    content = b"".join(parts) + (item("ENV", b"EOO") if is_scene else b"") + b"EOF"
     header = b"VREP" + struct.pack("<iiBiiH", 25, 24, 0, len(content), 0, 41000)
     file.write_bytes(header.ljust(1021, b"\0") + content)
     return file

@@ -13,6 +13,16 @@ from bubblesim.scene_state.scene_edits import SceneEdits, relative
 WORLD = -1
 
 
+def is_script_object(world: Any, handle: int) -> bool:
+    """Return whether an object is nothing but a script, which acts for its parent."""
+    return str(world.kind(handle)) == "frame" and str(world.frame_kind(handle)) == "script"
+
+
+def acting_object(world: Any, handle: int) -> int:
+    """Return the object for which a script acts whose own object is `handle`."""
+    return int(world.parent(handle)) if is_script_object(world, handle) else handle
+
+
 class ObjectTree:
     """The tree of a world. Changes of the scene's own objects are kept in ``edits``; -1 is the world."""
 

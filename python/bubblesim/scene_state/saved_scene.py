@@ -68,6 +68,7 @@ def _check(simulation: Any, edits: SceneEdits) -> None:
     path = simulation.world.path
     left = [f"the name '{name}' of {path(handle)}" for handle, name in edits.names.items()]
     left += [f"the parent of {path(handle)}" for handle in edits.parents]
+    left += [f"{path(handle)}, which was added from a file of CoppeliaSim" for handle in edits.foreign]
     left += [f"the static flag of {path(handle)}" for handle in edits.static if handle not in edits.shapes]
     if left:
         raise ValueError(f"the scene cannot be saved: a file has no place for {', '.join(left)}; take it back first")

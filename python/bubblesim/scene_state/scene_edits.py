@@ -41,6 +41,8 @@ class SceneEdits:
     """Created sensors, by the handle of their link, which is the object that callers know."""
     sources: dict[int, str] = field(default_factory=dict)
     """SDFormat strings of models that callers have added."""
+    foreign: dict[int, list[int]] = field(default_factory=dict)
+    """What callers have added from files of CoppeliaSim: its models, by the object at the top."""
     originals: dict[int, str] = field(default_factory=dict)
     """Names of the file's models of which others are copies."""
     colours: SetColours = field(default_factory=SetColours)
@@ -113,6 +115,7 @@ class SceneEdits:
                 self.shapes,
                 self.sensors,
                 self.sources,
+                self.foreign,
             ]
             tables += [self.originals, self.colours.links, self.numbers.links]
             tables += [self._first_names, self._first_parents]

@@ -144,6 +144,19 @@ std::unique_ptr<Simulation> simulate_named(const std::string& scene, std::uint64
   return std::make_unique<Simulation>(std::move(loaded), seed);
 }
 
+/// What no name of a model ends with.
+std::string free_suffix(const World& world) {
+  for (int number = 1;; ++number) {
+    std::string suffix = "_added" + std::to_string(number);
+    const std::vector<ObjectId> models = world.tree().models();
+    const auto is_taken = [&](ObjectId id) {
+      const std::string& name = world.tree().at(id).name;
+      return name.size() >= suffix.size() && name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0;
+    };
+    if (std::none_of(models.begin(), models.end(), is_taken)) return suffix;
+  }
+}
+
 ObjectView add_model(const py::object& owner, const std::string& text, const std::string& name,
                      const NumpyArray& position, const NumpyArray& orientation,
                      const std::map<std::string, std::string>& plugin_parameters) {
@@ -161,6 +174,20 @@ ObjectView add_model(const py::object& owner, const std::string& text, const std
     });
   }
   return {owner, id};
+}
+
+std::vector<ObjectView> add_foreign_models(const py::object& owner, const std::string& file) {
+  auto& simulation = owner.cast<Simulation&>();
+  std::vector<ObjectId> ids;
+  {
+    const py::gil_scoped_release others_may_run;
+    print_warnings_of([&](std::vector<Problem>& warnings) {
+      ids = simulation.add_models(load_foreign_models(file, free_suffix(simulation.world()), &warnings), &warnings);
+    });
+  }
+  std::vector<ObjectView> views;
+  for (const ObjectId id : ids) views.push_back({owner, id});
+  return views;
 }
 
 py::bytes save(Simulation& simulation) {
@@ -289,6 +316,12 @@ world i of a Batch with this seed.
 :param orientation: quaternion x, y, z, w of that frame.
 :param plugin_parameters: defaults for the parameters of its <plugin> elements.
 :raises SceneError: lists all problems of the model, including a name that is in use.)")
+      .def("add_foreign_models", &add_foreign_models, py::arg("file"),
+           R"(Add the models of a file of CoppeliaSim (.ttm, .ttt) and return them: one for all that is connected.
+
+They stand where the file has them, without a floor. Call it where `reset_world` may be called.
+
+:raises SceneError: if the file cannot be read.)")
       .def("remove_model", &Simulation::remove_model, py::arg("handle"), py::call_guard<py::gil_scoped_release>(),
            "Remove a model and all its objects. Call it where `reset_world` may be called.\n\n"
            "Handles of its objects become invalid.")

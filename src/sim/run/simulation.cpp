@@ -176,14 +176,24 @@ void Simulation::set_seed(std::uint64_t seed) {
 }
 
 ObjectId Simulation::add_model(ModelDescription model, std::vector<Problem>* warnings) {
+  std::vector<ModelDescription> one;
+  one.push_back(std::move(model));
+  return add_models(std::move(one), warnings).front();
+}
+
+std::vector<ObjectId> Simulation::add_models(std::vector<ModelDescription> models, std::vector<Problem>* warnings) {
   const AccessLock::Hold hold(world_.access());
   check_may_change_models();
-  const ObjectId id = world_.models().add(std::move(model), warnings);
-  rays_->add_model(world_, id, world_.models().description(id));
-  make_sensors(id);
+  const std::vector<ObjectId> ids = world_.models().add(std::move(models), warnings);
+  for (const ObjectId id : ids) {
+    rays_->add_model(world_, id, world_.models().description(id));
+    make_sensors(id);
+  }
   index_sensors();
-  for (System* system : systems_) system->model_added(world_, id);
-  return id;
+  for (const ObjectId id : ids) {
+    for (System* system : systems_) system->model_added(world_, id);
+  }
+  return ids;
 }
 
 void Simulation::remove_model(ObjectId model) {

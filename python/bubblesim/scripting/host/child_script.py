@@ -13,6 +13,7 @@ from bubblesim import _core
 from bubblesim.messages.names import did_you_mean
 from bubblesim.program.output import write_line
 from bubblesim.scene_state import log, problems
+from bubblesim.scene_state.object_tree import acting_object
 from bubblesim.scene_state.problems import Problem
 from bubblesim.scripting.allowed_programs import is_allowed
 from bubblesim.scripting.caller import Hook
@@ -166,7 +167,8 @@ class ChildScript:
 
     def sense(self) -> None:
         """Run sysCall_vision and sysCall_trigger of a sensor's script, and sysCall_sensing."""
-        simulation, handle = self.host.simulation, self.object_handle
+        simulation = self.host.simulation
+        handle = acting_object(simulation.world, self.object_handle)
         if self._hooks["sysCall_vision"] is not None and (data := sensor_callbacks.image_data(simulation, handle)):
             sensor_callbacks.keep_vision_result(self.shared, handle, self.answer("sysCall_vision", data))
         if self._hooks["sysCall_trigger"] is not None:

@@ -17,6 +17,7 @@ from bubblesim._core.messages import RosVersion
 from bubblesim.both_bridges import bridge_of
 from bubblesim.program.output import write_line
 from bubblesim.scene_state.log import Log
+from bubblesim.scene_state.object_tree import is_script_object
 from bubblesim.scene_state.problems import Problem
 from bubblesim.scene_state.shared_data import SharedData
 from bubblesim.scripting.api.ik.ik_module import SimIk
@@ -179,8 +180,17 @@ class ScriptHost:
         self.simulation.remove_model(model)
 
     def has_script(self, handle: int) -> bool:
-        """Return whether a script is attached to an object."""
-        return any(placed == handle for _, placed, _ in self._placed)
+        """Return whether a script is attached to an object, or to a script object below it."""
+        return self._holder(handle) is not None
+
+    def _holder(self, handle: int) -> int | None:
+        """Return the object that has an object's script: itself, or a script object below it."""
+        placed = {each for _, each, _ in self._placed}
+        if handle in placed:
+            return handle
+        world = self.simulation.world
+        below = world.children(handle) if handle >= 0 else []
+        return next((each for each in below if each in placed and is_script_object(world, each)), None)
 
     def script_functions(self, handle: int) -> list[str]:
         """Return the names of the global functions of an object's script."""
@@ -197,8 +207,9 @@ class ScriptHost:
 
     def text_of(self, handle: int) -> str:
         """Return the text of the file of an object's script."""
+        holder = self._holder(handle)
         for _, placed, file in self._placed:
-            if placed == handle:
+            if placed == holder:
                 return read_text(file)
         raise RuntimeError(f"{self.simulation.world.short_path(handle)} has no child script")
 
@@ -218,8 +229,9 @@ class ScriptHost:
         self._problems.add(problem)
 
     def _script_at(self, handle: int) -> ChildScript:
+        holder = self._holder(handle)
         for script in self.scripts:
-            if script.object_handle == handle:
+            if script.object_handle == holder:
                 return script
         if self.has_script(handle):
             raise RuntimeError("the simulation is stopped: its scripts can be called when it has been started")

@@ -11,7 +11,7 @@ from bubblesim.scene_state.shared_data import SharedData
 
 def kind_of(simulation: Any, handle: int) -> str:
     """Return the kind of a sensor; an empty string for another object."""
-    is_sensor = str(simulation.world.kind(handle)) == "sensor"
+    is_sensor = handle >= 0 and str(simulation.world.kind(handle)) == "sensor"
     return str(_core.sensor_kind(simulation, handle)) if is_sensor else ""
 
 

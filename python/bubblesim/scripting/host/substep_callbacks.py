@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from bubblesim._core import SubstepCall, set_contact_filter
+from bubblesim.scene_state.object_tree import acting_object
 from bubblesim.scene_state.scene_edits import SceneEdits
 from bubblesim.scripting.host.child_script import ChildScript
 from bubblesim.scripting.host.joint_callback import drive, joint_data
@@ -97,7 +98,9 @@ class SubstepCallbacks:
         self._first.discard(joint)
 
     def _above(self, handle: int, hook: str) -> list[ChildScript]:
-        by_object = {script.object_handle: script for script in self._scripts[hook]}
+        by_object = {
+            acting_object(self._simulation.world, script.object_handle): script for script in self._scripts[hook]
+        }
         found = []
         while handle >= 0:
             if handle in by_object:

@@ -19,16 +19,34 @@ struct FormatError : std::runtime_error {
 /// Throws a FormatError: `offset` counts bytes of the unpacked content, or of the file for its header.
 [[noreturn]] void fail_at(std::size_t offset, const std::string& message);
 
+/// What is wrong in a file that is read nevertheless: messages of FormatErrors.
+using Damage = std::vector<std::string>;
+
+/// Calls `read`. Its FormatError becomes an entry of `damage`, or is passed on if that is null.
+template <class Read>
+void note_damage(Damage* damage, const Read& read) {
+  try {
+    read();
+  } catch (const FormatError& error) {
+    if (damage == nullptr) throw;
+    damage->emplace_back(error.what());
+  }
+}
+
 /// Reads a range of bytes from front to back; the bytes must outlive it. Each function throws FormatError when the
 /// range ends before the value does.
 class Bytes {
  public:
   Bytes() = default;
-  /// `offset`: of the first byte, for errors.
-  explicit Bytes(std::string_view bytes, std::size_t offset = 0) : bytes_(bytes), offset_(offset) {}
+  /// `offset`: of the first byte, for errors. `damage`: where lists made of these bytes note what is wrong in them.
+  explicit Bytes(std::string_view bytes, std::size_t offset = 0, Damage* damage = nullptr)
+      : bytes_(bytes), offset_(offset), damage_(damage) {}
 
   std::size_t left() const { return bytes_.size(); }
   std::size_t offset() const { return offset_; }
+  Damage* damage() const { return damage_; }
+  /// The same bytes, of which lists note damage instead of throwing.
+  Bytes noting(Damage& damage) const { return Bytes(bytes_, offset_, &damage); }
 
   std::string_view take(std::size_t count);
   std::uint8_t u8();
@@ -53,6 +71,7 @@ class Bytes {
 
   std::string_view bytes_;
   std::size_t offset_ = 0;
+  Damage* damage_ = nullptr;
 };
 
 }  // namespace bubblesim::ttt

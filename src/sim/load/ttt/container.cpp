@@ -8,8 +8,8 @@ namespace bubblesim::ttt {
 namespace {
 
 constexpr std::size_t kHeader = 1021;
-constexpr int kOldest = 16;
-constexpr int kNewest = 25;
+constexpr int kOldest = 13;  // with the header as below; none was seen below 15
+constexpr int kImpossible = 1000;
 constexpr std::int64_t kLargest = 512LL << 20;
 // A code has at least one bit.
 constexpr std::int64_t kMostFactor = 8;
@@ -26,9 +26,11 @@ Container open_container(std::string_view file) {
   Bytes header(file.substr(4));
   Container container;
   container.serialization = header.i32();
-  if (container.serialization < kOldest || container.serialization > kNewest) {
-    fail_at(4, "the format has the version " + std::to_string(container.serialization) +
-                   ", known are 16 (V2.6.8) to 25 (V4.10): save it with another version of CoppeliaSim");
+  // Later versions leave out what they add: unknown items are skipped.
+  if (container.serialization < kOldest || container.serialization > kImpossible) {
+    fail_at(4, "the format has the version " + std::to_string(container.serialization) + ", known are " +
+                   std::to_string(kOldest) + " to " + std::to_string(kNewestFormat) +
+                   " (V4.10): save it with another version of CoppeliaSim");
   }
   header.i32();
   const int compression = header.u8();

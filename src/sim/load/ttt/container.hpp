@@ -7,8 +7,11 @@
 
 namespace bubblesim::ttt {
 
+/// The newest version of the format that is known: V4.10's.
+constexpr int kNewestFormat = 25;
+
 struct Container {
-  int serialization = 0;    ///< version of the format, 16 to 25
+  int serialization = 0;    ///< version of the format, 13 or later
   int program_version = 0;  ///< major * 10000 + minor * 100 + patch; 0: not in the header
   std::string content;      ///< the unpacked payload
 };

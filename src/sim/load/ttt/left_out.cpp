@@ -56,6 +56,13 @@ std::vector<std::string> LeftOut::lines() const {
 
 LeftOut left_out_of(const SceneFile& file, const Structure& structure) {
   LeftOut left_out;
+  for (const Body& body : structure.bodies) {
+    const Object& object = file.objects[static_cast<std::size_t>(body.shape)];
+    if (object.as<Shape>()->has_velocity) left_out.add("initial velocity: the body starts at rest", object.alias);
+  }
+  for (const Collection& collection : file.collections) {
+    left_out.add("saved collection: proximity sensors use it, scripts do not find it", collection.name);
+  }
   for (const Object& object : file.objects) {
     if (const std::string kind = object_kind(object); !kind.empty()) left_out.add(kind, object.alias);
     if (const auto* sensor = object.as<VisionSensor>()) {
@@ -76,6 +83,7 @@ LeftOut left_out_of(const SceneFile& file, const Structure& structure) {
     if (script.kind == ScriptKind::kChild && script.is_disabled)
       left_out.add("script that is disabled: not run", alias);
   }
+  for (const DamagedPart& part : file.damaged) left_out.add("damaged part that is left out: " + part.what, part.object);
   for (const auto& [what, count] : file.left_out) {
     for (int i = 0; i < count; ++i) left_out.add(what + ": left out", "");
   }

@@ -53,10 +53,18 @@ std::shared_ptr<const Triangles> read_packed_triangles(Bytes bytes) {
 }  // namespace
 
 void MeshData::add(const TagList& list) {
+  // A damaged array is an empty one: those after it keep their numbers.
   for (const Item& item : list.items()) {
-    if (item.tag == "Ver") vertices.push_back(read_vertices(item.content));
-    if (item.tag == "Ind") triangles.push_back(read_triangles(item.content));
-    if (item.tag == "In2") triangles.push_back(read_packed_triangles(item.content));
+    if (item.tag == "Ver") {
+      vertices.push_back(std::make_shared<const Vertices>());
+      note_damage(list.damage(), [&] { vertices.back() = read_vertices(item.content); });
+    }
+    if (item.tag == "Ind" || item.tag == "In2") {
+      triangles.push_back(std::make_shared<const Triangles>());
+      note_damage(list.damage(), [&] {
+        triangles.back() = item.tag == "Ind" ? read_triangles(item.content) : read_packed_triangles(item.content);
+      });
+    }
   }
 }
 

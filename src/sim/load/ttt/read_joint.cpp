@@ -39,10 +39,13 @@ void read_dependency(const TagList& list, Joint& joint) {
   const bool are_doubles = list.has("_dt");
   auto bytes = list.item(are_doubles ? "_dt" : "Jdt");
   if (!bytes) return;
-  joint.leader = bytes->i32();
-  const auto numbers = bytes->numbers(2, are_doubles);
-  joint.factor = numbers[0];
-  joint.offset = numbers[1];
+  note_damage(list.damage(), [&] {
+    const int leader = bytes->i32();
+    const auto numbers = bytes->numbers(2, are_doubles);
+    joint.leader = leader;
+    joint.factor = numbers[0];
+    joint.offset = numbers[1];
+  });
 }
 
 }  // namespace
@@ -61,9 +64,7 @@ Joint read_joint(const TagList& list) {
   joint.is_cyclic = (bits & 1U) != 0 && joint.type == JointType::kRevolute;
   joint.lead = list.number("Jsp", "_sp").value_or(0);
   if (const auto per_turn = list.number("", "Sld")) joint.lead = *per_turn / (2 * M_PI);
-  if (const auto q = list.numbers("Jst", "_st", 4); !q.empty()) {
-    joint.rotation = unit_rotation(q[0], q[1], q[2], q[3], list.offset_of("Jst", "_st"));
-  }
+  joint.rotation = list.rotation("Jst", "_st").value_or(Quaternion());
   const int mode = list.integer("Jmd", 0);
   joint.is_dynamic = mode == kDynamicMode || (bits & 0x40U) != 0;
   joint.is_dependent = mode == kDependentMode || mode == kOldDependentMode;

@@ -57,13 +57,16 @@ std::vector<Parameter> read_parameters(const TagList& list) {
   auto bytes = list.item("Par");
   if (!bytes) return parameters;
   constexpr std::size_t kLeast = 16;  // bytes of three empty strings and the flags
-  for (std::size_t count = bytes->count(kLeast); count > 0; --count) {
-    Parameter& parameter = parameters.emplace_back();
-    parameter.name = bytes->text();
-    parameter.unit = bytes->text();
-    parameter.value = bytes->text();
-    bytes->i32();  // flags
-  }
+  note_damage(list.damage(), [&] {
+    for (std::size_t count = bytes->count(kLeast); count > 0; --count) {
+      Parameter parameter;
+      parameter.name = bytes->text();
+      parameter.unit = bytes->text();
+      parameter.value = bytes->text();
+      bytes->i32();  // flags
+      parameters.push_back(std::move(parameter));
+    }
+  });
   return parameters;
 }
 

@@ -32,7 +32,7 @@ ProximitySensor read_proximity_sensor(const TagList& list) {
   sensor.entity = list.integer("Sox", -1);
   const TagList volume = list.list("Vod");
   const bool are_doubles = volume.has("_s3");
-  if (auto bytes = volume.item(are_doubles ? "_s3" : "Ss3")) {
+  if (auto bytes = volume.item(are_doubles ? "_s3" : "Ss3"); bytes && bytes->left() >= (are_doubles ? 72 : 36)) {
     const auto n = bytes->unset_numbers(9, are_doubles);  // a ray has no radius, a cone no size
     sensor.offset = n[0];
     sensor.range = n[1];
@@ -66,12 +66,16 @@ VisionSensor read_vision_sensor(const TagList& list) {
     sensor.far = n[3];
   }
   if (auto bytes = list.item("Res")) {
-    const std::size_t start = bytes->offset();
-    sensor.columns = bytes->i32();
-    sensor.rows = bytes->i32();
-    if (std::min(sensor.columns, sensor.rows) < 1 || std::max(sensor.columns, sensor.rows) > kMostPixels) {
-      fail_at(start, "the resolution of a vision sensor is not from 1 to 8192 pixels");
-    }
+    note_damage(list.damage(), [&] {
+      const std::size_t start = bytes->offset();
+      const int columns = bytes->i32();
+      const int rows = bytes->i32();
+      if (std::min(columns, rows) < 1 || std::max(columns, rows) > kMostPixels) {
+        fail_at(start, "the resolution of a vision sensor is not from 1 to 8192 pixels");
+      }
+      sensor.columns = columns;
+      sensor.rows = rows;
+    });
   }
   sensor.is_perspective = (list.u8("Va3").value_or(list.u8("Var").value_or(1)) & 1U) != 0;
   sensor.has_filters = list.has("Cfr");
@@ -92,7 +96,7 @@ Collection read_collection(const TagList& list) {
     const TagList own(bytes);
     Collection::Element& element = collection.elements.emplace_back();
     element.kind = static_cast<ElementKind>(own.u8("Gty").value_or(0));
-    if (auto object = own.item("Obj")) element.object = object->i32();
+    element.object = own.integer("Obj", -1);
     element.adds = (own.u8("Var").value_or(1) & 1U) != 0;
   }
   return collection;
@@ -101,7 +105,7 @@ Collection read_collection(const TagList& list) {
 Lamp read_lamp(const TagList& list) {
   Lamp lamp;
   if (auto bytes = list.item(list.has("_p2") ? "_p2" : "Cp2")) {
-    const int kind = bytes->i32();
+    const int kind = bytes->left() >= sizeof(std::int32_t) ? bytes->i32() : 1;
     if (kind >= 1 && kind <= 3) lamp.kind = static_cast<LampKind>(kind);
   }
   lamp.cutoff = list.number("Cp3", "_p3").value_or(lamp.cutoff);

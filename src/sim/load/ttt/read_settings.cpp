@@ -6,6 +6,7 @@ namespace {
 
 constexpr double kShortest = 1e-5;
 constexpr double kLongest = 10;
+constexpr double kMostGravity = 1e4;  // m/s^2
 
 double step_of(std::optional<double> step, double otherwise) {
   return step && *step >= kShortest && *step <= kLongest ? *step : otherwise;
@@ -14,7 +15,8 @@ double step_of(std::optional<double> step, double otherwise) {
 void read_time_step(const TagList& sim, Settings& settings) {
   std::optional<double> step = sim.number("", "_t3");
   if (!step) step = sim.number("St3", "");
-  if (auto bytes = sim.item("St2"); bytes && !step) step = 1e-6 * static_cast<double>(bytes->u64());
+  if (auto bytes = sim.item("St2"); bytes && bytes->left() >= sizeof(std::uint64_t) && !step)
+    step = 1e-6 * static_cast<double>(bytes->u64());
   if (!step) step = sim.number("Sts", "");
   settings.time_step = step_of(step, settings.time_step);
 }
@@ -23,9 +25,14 @@ void read_dynamics(const TagList& dyn, Settings& settings) {
   for (const char* tag : {"_n3", "En3", "En2", "Eng"}) {
     auto bytes = dyn.item(tag);
     if (!bytes) continue;
-    settings.engine = bytes->i32();
-    const auto gravity = bytes->numbers(3, std::string_view(tag) == "_n3");
-    settings.gravity = {gravity[0], gravity[1], gravity[2]};
+    note_damage(dyn.damage(), [&] {
+      const std::size_t start = bytes->offset();
+      settings.engine = bytes->i32();
+      const auto n = bytes->numbers(3, std::string_view(tag) == "_n3");
+      const Vector3 gravity(n[0], n[1], n[2]);
+      if (!(gravity.norm() <= kMostGravity)) fail_at(start, "gravity is out of range");
+      settings.gravity = gravity;
+    });
     break;
   }
   std::optional<double> step = dyn.number("Stp", "_tp");

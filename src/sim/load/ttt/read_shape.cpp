@@ -9,10 +9,24 @@ namespace {
 
 constexpr int kDeepest = 64;
 constexpr double kLeastMass = 0.001;  // stands for 0
-constexpr double kMost = 1e9;         // kg or m
+constexpr double kMostMass = 1e6;     // kg
+constexpr double kMostSize = 1e5;     // m
 
-void require_sane(double value, double low, const char* what, std::size_t offset) {
-  if (value < low || value > kMost) fail_at(offset, std::string(what) + " is out of range: the file is damaged");
+void require_sane(double value, double low, double high, const char* what, std::size_t offset) {
+  if (value < low || value > high) fail_at(offset, std::string(what) + " is out of range");
+}
+
+/// Whether a triangle is none but for rounding: readers of meshes drop the others.
+bool has_area(const Vertices& vertices, const std::array<std::uint32_t, 3>& triangle) {
+  constexpr double kLeastSine = 1e-5;
+  const auto corner = [&](std::size_t i) {
+    const auto& v = vertices[triangle[i]];
+    return Vector3(v[0], v[1], v[2]);
+  };
+  const Vector3 a = corner(1) - corner(0);
+  const Vector3 b = corner(2) - corner(0);
+  const double longest = std::max({a.squaredNorm(), b.squaredNorm(), Vector3(b - a).squaredNorm()});
+  return longest > 0 && a.cross(b).norm() > kLeastSine * longest;
 }
 
 /// Moments of inertia, divided by the mass, with their frame.
@@ -59,18 +73,22 @@ class ShapeReader {
     shape_.is_static = (bits & 0x80U) == 0;
     shape_.is_respondable = (list.u8("Ss3").value_or(list.u8("Ss2").value_or(0)) & 1U) != 0;
     shape_.respondable_mask = list.u16("Dc2").value_or(0xffff);
+    const std::vector<double> velocity = list.numbers("Idv", "_dv", 6);
+    shape_.has_velocity = std::any_of(velocity.begin(), velocity.end(), [](double each) { return each != 0; });
     const TagList geometry = list.list("Ge2");
     if (auto mesh = geometry.item("Gst")) read_mesh(*mesh, true);
     if (auto compound = geometry.item("Gsg")) read_compound(*compound, true, 0);
+    if (auto mesh = list.item("Geo"); mesh && geometry.items().empty()) read_mesh(*mesh, true);  // of V2.6.6
+    if (shape_.parts.empty()) shape_.is_static = true;  // it would fall through all others
     if (const TagList material = list.list("Mat"); !material.items().empty()) read_material(material);
   }
 
  private:
   void read_outermost(const TagList& body, std::size_t offset) {
-    shape_.mass = body.number("Mas", "_as").value_or(0);
-    if (shape_.mass == 0) shape_.mass = kLeastMass;
-    require_sane(shape_.mass, 0, "the mass", offset);
-    read_inertia(body, shape_);
+    const double mass = body.number("Mas", "_as").value_or(0);
+    note_damage(body.damage(), [&] { require_sane(mass, 0, kMostMass, "the mass", offset); });
+    shape_.mass = mass > 0 && mass <= kMostMass ? mass : kLeastMass;
+    note_damage(body.damage(), [&] { read_inertia(body, shape_); });
   }
 
   void read_compound(Bytes bytes, bool is_outermost, int depth) {
@@ -81,7 +99,7 @@ class ShapeReader {
     read_old_material(body);
     for (const Item& item : body.items()) {
       if (item.tag == "Geo") read_mesh(item.content, false);
-      if (item.tag == "Wrp") read_compound(item.content, false, depth + 1);
+      if (item.tag == "Wrp") note_damage(body.damage(), [&] { read_compound(item.content, false, depth + 1); });
     }
   }
 
@@ -92,13 +110,14 @@ class ShapeReader {
     if (is_outermost) read_outermost(body, start);
     read_old_material(body);
     Part part;
-    find_arrays(mesh, part, start);
+    note_damage(mesh.damage(), [&] { find_arrays(mesh, part, start); });
     part.frame = mesh.position_first("Ppf", "_pf").value_or(Pose());
+    if (!(part.frame.position.norm() <= kMostSize)) part.frame.position = Vector3();
     part.is_convex = (mesh.u8("Va2").value_or(0) & 1U) != 0 || (body.u8("Var").value_or(0) & 4U) != 0;
     part.is_wireframe = (mesh.u8("Var").value_or(0) & 4U) != 0;
-    read_primitive(mesh, part);
+    note_damage(mesh.damage(), [&] { read_primitive(mesh, part); });
     read_color(mesh.list("Cl0"), part);
-    read_texture(mesh.list("Toj"), part);
+    note_damage(mesh.damage(), [&] { read_texture(mesh.list("Toj"), part); });
     shape_.parts.push_back(std::move(part));
   }
 
@@ -109,17 +128,28 @@ class ShapeReader {
     part.triangles = no_triangles;
     MeshData own;
     own.add(mesh);
-    if (!own.vertices.empty()) part.vertices = own.vertices.front();
-    if (!own.triangles.empty()) part.triangles = own.triangles.front();
-    if (const auto index = mesh.integer("Vev")) part.vertices = shared(sources_.meshes.vertices, *index, start);
-    if (const auto index = mesh.integer("Inv")) part.triangles = shared(sources_.meshes.triangles, *index, start);
-    if (part.triangles->size() > sources_.triangles_left) fail_at(start, "the file has more than 20 million triangles");
-    sources_.triangles_left -= part.triangles->size();
-    for (const auto& triangle : *part.triangles) {
+    auto vertices = own.vertices.empty() ? no_vertices : own.vertices.front();
+    auto triangles = own.triangles.empty() ? no_triangles : own.triangles.front();
+    if (const auto index = mesh.integer("Vev")) vertices = shared(sources_.meshes.vertices, *index, start);
+    if (const auto index = mesh.integer("Inv")) triangles = shared(sources_.meshes.triangles, *index, start);
+    if (triangles->size() > sources_.triangles_left) fail_at(start, "the file has more than 20 million triangles");
+    for (const auto& triangle : *triangles) {
       for (const std::uint32_t corner : triangle) {
-        if (corner >= part.vertices->size()) fail_at(start, "a triangle has a corner that is no vertex of its mesh");
+        if (corner >= vertices->size()) fail_at(start, "a triangle has a corner that is no vertex of its mesh");
       }
     }
+    for (const auto& vertex : *vertices) {
+      for (const float number : vertex) {
+        if (std::abs(number) > kMostSize / 2) fail_at(start, "a vertex is more than 50 km from its shape: no mesh");
+      }
+    }
+    const auto is_wide = [&](const auto& triangle) { return has_area(*vertices, triangle); };
+    if (!triangles->empty() && std::none_of(triangles->begin(), triangles->end(), is_wide)) {
+      fail_at(start, "the mesh has no triangle with an area");
+    }
+    sources_.triangles_left -= triangles->size();
+    part.vertices = std::move(vertices);
+    part.triangles = std::move(triangles);
   }
 
   template <class Array>
@@ -140,7 +170,7 @@ class ShapeReader {
     const int kind = bytes->i32();
     if (kind < 0 || kind > static_cast<int>(PrimitiveKind::kCapsule)) return;  // a later kind is a mesh
     const std::vector<double> size = bytes->numbers(3, are_doubles);
-    for (const double length : size) require_sane(length, -kMost, "the size of a primitive", start);
+    for (const double length : size) require_sane(length, -kMostSize, kMostSize, "the size of a primitive", start);
     part.primitive = static_cast<PrimitiveKind>(kind);
     part.size = {size[0], size[1], size[2]};
     part.has_hole = mesh.number("Pp2", "_p2").value_or(0) > 0;
@@ -154,10 +184,11 @@ class ShapeReader {
     if (!coordinates) return;
     const std::size_t corners = coordinates->left() / (2 * sizeof(float));
     if (corners != 3 * part.triangles->size()) return;  // of another mesh: the colour remains
-    part.texture_coordinates.resize(corners);
-    for (auto& corner : part.texture_coordinates) {
+    std::vector<std::array<float, 2>> read(corners);
+    for (auto& corner : read) {
       for (float& number : corner) number = static_cast<float>(coordinates->f32());
     }
+    part.texture_coordinates = std::move(read);
   }
 
   void read_material(const TagList& material) {
@@ -165,8 +196,10 @@ class ShapeReader {
     shape_.bullet = material.block("BuN", "_uN");
     if (!shape_.ode.empty()) return;
     if (auto old = material.item("Od2")) {
-      old->i32();
-      shape_.ode = old->numbers(5, false);
+      note_damage(material.damage(), [&] {
+        old->i32();
+        shape_.ode = old->numbers(5, false);
+      });
     }
   }
 

@@ -43,6 +43,7 @@ struct Part {
 struct Shape {
   bool is_static = true;
   bool is_respondable = false;
+  bool has_velocity = false;           ///< at the start
   unsigned respondable_mask = 0xffff;  ///< low byte: with shapes of the same tree, high byte: with others
   double mass = 0.001;
   Vector3 centre_of_mass;                 ///< in the shape's frame
@@ -159,7 +160,8 @@ enum class ScriptKind { kMain = 0, kChild = 1, kCustomization = 6, kOther = -1 }
 
 struct Script {
   int handle = -1;
-  int object = -1;  ///< handle; -1: none
+  int object = -1;  ///< handle of the object that it acts for; -1: none
+  int holder = -1;  ///< handle of the script object that it is; -1: it is a part of that object
   ScriptKind kind = ScriptKind::kOther;
   bool is_python = false;
   bool is_threaded = false;  ///< of old files
@@ -202,6 +204,11 @@ struct Settings {
   unsigned active_layers = 0xff;
 };
 
+struct DamagedPart {
+  std::string object;  ///< alias; empty: no object
+  std::string what;    ///< is wrong, and at which byte
+};
+
 struct SceneFile {
   int serialization = 0;
   int program_version = 0;
@@ -212,9 +219,11 @@ struct SceneFile {
   std::vector<Collection> collections;
   Settings settings;
   std::map<std::string, int> left_out;  ///< what has no counterpart and is not an object, with its number
+  std::vector<DamagedPart> damaged;     ///< what cannot be read, while the rest can
 };
 
-/// Reads the bytes of a file. Throws FormatError, which names the byte of the unpacked content.
+/// Reads the bytes of a file. What is wrong within an item is noted in `damaged`, and counts as missing. Throws
+/// FormatError, which names the byte of the unpacked content, when the items of the file themselves cannot be found.
 SceneFile read_scene_file(std::string_view file);
 
 }  // namespace bubblesim::ttt

@@ -10,12 +10,18 @@ std::map<int, std::string> write_scripts(const std::filesystem::path& folder, Co
   UniqueNames names;
   for (const Script& script : conversion.file.scripts) {
     if (script.kind != ScriptKind::kChild || script.is_disabled) continue;
-    const int place = conversion.structure.place(script.object);
+    const int object = conversion.structure.place(script.object);
+    const int place = script.holder < 0 ? object : conversion.structure.place(script.holder);
     if (place == kNone) {
       conversion.left_out.add("script of no object: not run", "");
       continue;
     }
-    const std::string& owner = conversion.object(place).alias;
+    const std::string& owner = conversion.object(object == kNone ? place : object).alias;
+    constexpr unsigned kScriptsInactive = 0x200;
+    if ((conversion.node(place).model_flags & kScriptsInactive) != 0) {
+      conversion.left_out.add("script of a model whose scripts are inactive: not run", owner);
+      continue;
+    }
     if (paths.count(place) > 0) {
       conversion.left_out.add("second script of an object: not run", owner);
       continue;

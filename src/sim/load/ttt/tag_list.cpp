@@ -15,18 +15,27 @@ bool is_tag(std::string_view tag) {
 
 }  // namespace
 
-TagList::TagList(Bytes& bytes) {
-  while (bytes.left() > 0) {
-    const std::size_t start = bytes.offset();
-    Item item;
-    item.tag = bytes.take(kTag);
-    if (!is_tag(item.tag)) fail_at(start, "expected a tag of three characters: the file is damaged");
-    if (item.tag == "EOO" || item.tag == "NXT" || item.tag == "EOF") return;
-    const std::size_t length = bytes.count(1);
-    const std::size_t content = bytes.offset();
-    item.content = Bytes(bytes.take(length), content);
-    items_.push_back(item);
-  }
+TagList::TagList(Bytes& bytes) : damage_(bytes.damage()) {
+  note_damage(damage_, [&] {
+    while (bytes.left() > 0) {
+      const std::size_t start = bytes.offset();
+      Item item;
+      item.tag = bytes.take(kTag);
+      if (!is_tag(item.tag)) fail_at(start, "expected a tag of three characters: the file is damaged");
+      if (item.tag == "EOO" || item.tag == "NXT" || item.tag == "EOF") return;
+      const std::size_t length = bytes.count(1);
+      const std::size_t content = bytes.offset();
+      item.content = Bytes(bytes.take(length), content, damage_);
+      items_.push_back(item);
+    }
+  });
+}
+
+template <class Value, class Read>
+std::optional<Value> TagList::read(std::string_view tag, const Read& read_value) const {
+  std::optional<Value> value;
+  if (auto bytes = item(tag)) note_damage(damage_, [&] { value = read_value(*bytes); });
+  return value;
 }
 
 const Item* TagList::find(std::string_view tag) const {
@@ -51,29 +60,26 @@ TagList TagList::list(std::string_view tag) const {
 }
 
 std::optional<int> TagList::integer(std::string_view tag) const {
-  auto bytes = item(tag);
-  return bytes ? std::make_optional(bytes->i32()) : std::nullopt;
+  return read<int>(tag, [](Bytes& bytes) { return bytes.i32(); });
 }
 
 std::optional<unsigned> TagList::u8(std::string_view tag) const {
-  auto bytes = item(tag);
-  return bytes ? std::make_optional<unsigned>(bytes->u8()) : std::nullopt;
+  return read<unsigned>(tag, [](Bytes& bytes) { return bytes.u8(); });
 }
 
 std::optional<unsigned> TagList::u16(std::string_view tag) const {
-  auto bytes = item(tag);
-  return bytes ? std::make_optional<unsigned>(bytes->u16()) : std::nullopt;
+  return read<unsigned>(tag, [](Bytes& bytes) { return bytes.u16(); });
 }
 
 std::optional<std::string> TagList::text(std::string_view tag) const {
-  auto bytes = item(tag);
-  return bytes ? std::make_optional(bytes->text()) : std::nullopt;
+  return read<std::string>(tag, [](Bytes& bytes) { return bytes.text(); });
 }
 
 std::vector<double> TagList::numbers(std::string_view floats, std::string_view doubles, std::size_t count) const {
-  if (auto bytes = item(doubles)) return bytes->numbers(count, true);
-  if (auto bytes = item(floats)) return bytes->numbers(count, false);
-  return {};
+  using Numbers = std::vector<double>;
+  const bool are_doubles = has(doubles);
+  return read<Numbers>(are_doubles ? doubles : floats, [&](Bytes& bytes) { return bytes.numbers(count, are_doubles); })
+      .value_or(Numbers());
 }
 
 std::optional<double> TagList::number(std::string_view floats, std::string_view doubles) const {
@@ -81,25 +87,39 @@ std::optional<double> TagList::number(std::string_view floats, std::string_view 
   return found.empty() ? std::nullopt : std::make_optional(found.front());
 }
 
+std::optional<Quaternion> TagList::rotation(std::string_view floats, std::string_view doubles) const {
+  const std::vector<double> n = numbers(floats, doubles, 4);
+  std::optional<Quaternion> turn;
+  if (n.empty()) return turn;
+  note_damage(damage_, [&] { turn = unit_rotation(n[0], n[1], n[2], n[3], offset_of(floats, doubles)); });
+  return turn;
+}
+
 std::optional<Pose> TagList::rotation_first(std::string_view floats, std::string_view doubles) const {
   const std::vector<double> n = numbers(floats, doubles, 7);
-  if (n.empty()) return std::nullopt;
-  return Pose(Vector3(n[4], n[5], n[6]), unit_rotation(n[0], n[1], n[2], n[3], offset_of(floats, doubles)));
+  std::optional<Pose> pose;
+  if (n.empty()) return pose;
+  note_damage(damage_, [&] { pose = pose_of({n[4], n[5], n[6], n[0], n[1], n[2], n[3]}, offset_of(floats, doubles)); });
+  return pose;
 }
 
 std::optional<Pose> TagList::position_first(std::string_view floats, std::string_view doubles) const {
   const std::vector<double> n = numbers(floats, doubles, 7);
-  if (n.empty()) return std::nullopt;
-  return pose_of(n, offset_of(floats, doubles));
+  std::optional<Pose> pose;
+  if (n.empty()) return pose;
+  note_damage(damage_, [&] { pose = pose_of(n, offset_of(floats, doubles)); });
+  return pose;
 }
 
 std::vector<double> TagList::block(std::string_view floats, std::string_view doubles) const {
+  using Numbers = std::vector<double>;
   const bool are_doubles = has(doubles);
-  auto bytes = item(are_doubles ? doubles : floats);
-  if (!bytes) return {};
-  const std::size_t count = bytes->count(are_doubles ? sizeof(double) : sizeof(float));
-  bytes->i32();
-  return bytes->numbers(count, are_doubles);
+  const auto read_block = [&](Bytes& bytes) {
+    const std::size_t count = bytes.count(are_doubles ? sizeof(double) : sizeof(float));
+    bytes.i32();
+    return bytes.numbers(count, are_doubles);
+  };
+  return read<Numbers>(are_doubles ? doubles : floats, read_block).value_or(Numbers());
 }
 
 Quaternion unit_rotation(double w, double x, double y, double z, std::size_t offset) {

@@ -21,13 +21,18 @@ struct Item {
 
 /// The items of one list, up to its end marker. Many numbers may be in a file twice, as floats and as doubles under
 /// another tag: the functions that take two tags prefer the doubles. An empty tag stands for none.
+/// An item that is too short or has impossible numbers throws FormatError; if the bytes note damage, that is noted, and
+/// the item counts as missing. Those that return Bytes leave it to their caller.
 class TagList {
  public:
-  /// Takes one list from the bytes; a list may also end with them. Throws FormatError.
+  /// Takes one list from the bytes; a list may also end with them. Throws FormatError; if the bytes note damage, that
+  /// is noted, and the list ends before it.
   explicit TagList(Bytes& bytes);
   TagList() = default;
 
   const std::vector<Item>& items() const { return items_; }
+  /// Where damage is noted; null: it is thrown.
+  Damage* damage() const { return damage_; }
   bool has(std::string_view tag) const { return find(tag) != nullptr; }
   /// The content of the first item of that tag, at its start; nothing if there is none.
   std::optional<Bytes> item(std::string_view tag) const;
@@ -44,6 +49,8 @@ class TagList {
   /// Exactly `count` numbers; empty if there is none.
   std::vector<double> numbers(std::string_view floats, std::string_view doubles, std::size_t count) const;
   std::optional<double> number(std::string_view floats, std::string_view doubles) const;
+  /// w x y z.
+  std::optional<Quaternion> rotation(std::string_view floats, std::string_view doubles) const;
   /// w x y z and then x y z.
   std::optional<Pose> rotation_first(std::string_view floats, std::string_view doubles) const;
   /// x y z and then w x y z.
@@ -53,8 +60,11 @@ class TagList {
 
  private:
   const Item* find(std::string_view tag) const;
+  template <class Value, class Read>
+  std::optional<Value> read(std::string_view tag, const Read& read_value) const;
 
   std::vector<Item> items_;
+  Damage* damage_ = nullptr;
 };
 
 /// A rotation of unit length. Throws FormatError for zero.

@@ -150,8 +150,23 @@ class ModelWriter {
     put(inertia, "izz", m(2, 2));
   }
 
-  /// Whether scripts can move a shape on its own: what does not move has a link for each.
-  bool is_loose(int i) const { return is_static_ ? i != group_.fixed : c_.node(i).is_on_joint; }
+  /// Whether scripts can move a shape on its own: what does not move has a link for each. Of what a body carries, it is
+  /// beyond a joint, or a script names it, and it collides with nothing: a mark to be dragged.
+  bool is_loose(int i) const {
+    if (is_static_) return i != group_.fixed;
+    if (c_.node(i).is_on_joint) return true;
+    const Node& node = c_.node(i);
+    const bool makes_body = node.body != kWorld && body(node.body).shape == i;
+    const bool is_fixed = node.body == kWorld && i == group_.fixed;
+    return !makes_body && !is_fixed && !c_.object(i).as<Shape>()->is_respondable && is_named(i);
+  }
+
+  bool is_named(int i) const {
+    const std::string& alias = c_.object(i).alias;
+    const auto names = [&alias](const Script& script) { return script.text.find(alias) != std::string::npos; };
+    const std::vector<Script>& scripts = c_.file.scripts;
+    return !alias.empty() && std::any_of(scripts.begin(), scripts.end(), names);
+  }
 
   void write_members(pugi::xml_node link, int of_body, const std::vector<int>& members, const Pose& pose,
                      const LinkKind& kind) {
@@ -236,8 +251,8 @@ void write_settings(pugi::xml_node world, const Settings& settings) {
   put(scene, "shadows", "false");
 }
 
-void write_floor(pugi::xml_node world, Conversion& conversion) {
-  pugi::xml_node model = named(world, "model", conversion.names.take("ground_plane"));
+void write_floor(pugi::xml_node world) {
+  pugi::xml_node model = named(world, "model", kFloor);
   put(model, "static", "true");
   pugi::xml_node link = named(model, "link", "link");
   for (const char* part : {"collision", "visual"}) {
@@ -256,6 +271,7 @@ void write_floor(pugi::xml_node world, Conversion& conversion) {
 std::vector<std::string> write_scene(const SceneFile& file, const std::string& name, const fs::path& folder) {
   const Structure structure = structure_of(file);
   Conversion conversion{file, structure, MeshFiles(folder, file), left_out_of(file, structure), UniqueNames()};
+  conversion.names.take(kFloor);
   pugi::xml_document document;
   pugi::xml_node sdf = document.append_child("sdf");
   sdf.append_attribute("version").set_value("1.9");
@@ -271,7 +287,7 @@ std::vector<std::string> write_scene(const SceneFile& file, const std::string& n
     const Object& object = conversion.object(i);
     if (object.as<Joint>() != nullptr) conversion.joints[i] = conversion.names.take(object.alias);
   }
-  if (!file.is_scene) write_floor(world, conversion);
+  if (!file.is_scene) write_floor(world);
   pugi::xml_node state = sdf.append_child("state");
   for (const Group& group : groups_of(file, structure)) {
     ModelWriter(world, state, group, conversion).write();

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bubblesim/world_models.hpp"
 #include "physics/motion/sleep.hpp"
@@ -21,36 +22,53 @@ void forget_contacts(WorldState& state, ObjectId model) {
 }
 
 ObjectId WorldModels::add(ModelDescription model, std::vector<Problem>* warnings) {
+  std::vector<ModelDescription> one;
+  one.push_back(std::move(model));
+  return add(std::move(one), warnings).front();
+}
+
+std::vector<ObjectId> WorldModels::add(std::vector<ModelDescription> models, std::vector<Problem>* warnings) {
   check_not_diverged(state());
-  std::vector<Problem> problems = check_model(model);
-  for (const ObjectId id : state().tree().models()) {
-    if (state().tree().at(id).name != model.name) continue;
-    problems.push_back({model.source.file, model.source.line, "/" + model.name,
-                        "a model with this name exists already; choose another name, or remove that model first"});
+  std::vector<Problem> problems;
+  for (const ModelDescription& model : models) {
+    for (Problem& problem : check_model(model)) problems.push_back(std::move(problem));
+    for (const ObjectId id : state().tree().models()) {
+      if (state().tree().at(id).name != model.name) continue;
+      problems.push_back({model.source.file, model.source.line, "/" + model.name,
+                          "a model with this name exists already; choose another name, or remove that model first"});
+    }
   }
   if (!problems.empty()) throw SceneError(std::move(problems));
   ode::prepare_this_thread();
-  make_rotations_unit(model);
-  const bool is_static = model.is_static;
-  const auto prepared = prepare_model(std::make_shared<const ModelDescription>(std::move(model)), warnings);
-  prepared->added_hash = hash_of(*prepared->description);
+  std::vector<std::shared_ptr<PreparedModel>> prepared;
+  for (ModelDescription& model : models) {
+    make_rotations_unit(model);
+    prepared.push_back(prepare_model(std::make_shared<const ModelDescription>(std::move(model)), warnings));
+    prepared.back()->added_hash = hash_of(*prepared.back()->description);
+  }
   SceneTree& tree = changing_tree(state());
   DescribedTree described(tree);
-  const ObjectId id = described.add(*prepared->description);
+  std::vector<ObjectId> ids;
+  ids.reserve(prepared.size());
+  for (const auto& model : prepared) ids.push_back(described.add(*model->description));
   described.arrange();
+  std::size_t placed = 0;
   try {
-    place_model(state(), id, prepared);
-  } catch (...) {
-    tree.remove(id);
+    for (; placed < ids.size(); ++placed) place_model(state(), ids[placed], prepared[placed]);
+  } catch (...) {  // all of them or none
+    for (std::size_t i = 0; i < ids.size(); ++i) i < placed ? remove(ids[i]) : tree.remove(ids[i]);
     throw;
   }
-  if (is_static) gather_statics(state());
+  const auto is_static = [](const auto& model) { return model->description->is_static; };
+  if (std::any_of(prepared.begin(), prepared.end(), is_static)) gather_statics(state());
   list_moving(state());
-  attach_statics(state(), *state().models.back());
+  for (std::size_t i = state().models.size() - ids.size(); i < state().models.size(); ++i) {
+    attach_statics(state(), *state().models[i]);
+  }
   find_leaders(state());
   ++state().revision;
   state().has_scene_models = false;
-  return id;
+  return ids;
 }
 
 void WorldModels::check_removable(ObjectId model) const {

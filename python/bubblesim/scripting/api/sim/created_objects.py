@@ -115,7 +115,8 @@ class CreatedObjectFunctions(ObjectChangeFunctions, LogFunctions):
             if self._tree.is_created_dummy(handle):
                 self._caller.shared.dummies.remove(self._world, handle)
             else:
-                self._remove_model(self._tree.model(handle))
+                for model in self._edits.foreign.pop(handle, [self._tree.model(handle)]):
+                    self._remove_model(model)
         return len(handles)
 
     def removeObject(self, handle: Handle) -> int:
@@ -185,7 +186,7 @@ class CreatedObjectFunctions(ObjectChangeFunctions, LogFunctions):
         return model
 
     def _check_removable(self, handle: int) -> None:
-        if self._tree.is_created_dummy(handle):
+        if self._tree.is_created_dummy(handle) or handle in self._edits.foreign:
             return
         model = self._tree.model(handle)
         if model < 0 or self._tree.object_of(model) != handle:

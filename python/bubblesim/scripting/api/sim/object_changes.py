@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+from pathlib import Path
 
 from bubblesim._core import StandIn, sensor_kind
 from bubblesim.scene_state.scene_edits import Hold, relative
@@ -205,6 +206,16 @@ class ObjectChangeFunctions(ApiContext):
             model = int(self._simulation.add_model(text, name=self._free_name(name)).handle)
         self._edits.sources[model] = text
         return model
+
+    def _add_foreign_models(self, file: Path) -> int:
+        """Add what a file of CoppeliaSim has, and return the object at its top: the base of a model, if it has one."""
+        before = set(self._world.children(-1))
+        with self._stand_in():
+            models = [int(model.handle) for model in self._simulation.add_foreign_models(str(file))]
+        tops = [int(handle) for handle in self._world.children(-1) if handle not in before]
+        base = next((handle for handle in tops if self._world.is_model_base(handle)), tops[0])
+        self._edits.foreign[base] = models
+        return base
 
     def _free_name(self, name: str) -> str:
         """Return the name of a model, or the name with the next free number."""

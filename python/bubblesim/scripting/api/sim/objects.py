@@ -5,9 +5,12 @@ from __future__ import annotations
 
 import contextlib
 import math
+import sys
 
 from bubblesim._core import sensor_kind
 from bubblesim.geometry import poses, rotations
+from bubblesim.program.output import write_line
+from bubblesim.scene_state import log
 from bubblesim.scripting.api.checked_calls import value_first
 from bubblesim.scripting.api.kinds import (
     INTEGER,
@@ -222,6 +225,7 @@ class ObjectFunctions(ApiContext):
         return list(linear), list(angular)
 
     def _pose(self, handle: int, relative_to: int) -> Vector:
+        handle, relative_to = self._without_flag(handle, relative_to)
         handle = self._resolve(handle)
         if relative_to == WORLD:
             return self._tree.pose(handle)
@@ -230,6 +234,13 @@ class ObjectFunctions(ApiContext):
             return poses.multiply(self._motion_of(joint), self._tree.pose_in(handle, joint))
         frame = self._frame(handle, relative_to)
         return self._tree.pose(handle) if frame is None else self._tree.pose_in(handle, frame)
+
+    def _without_flag(self, handle: int, relative_to: int) -> tuple[int, int]:
+        """Move sim.handleflag_reljointbaseframe from the handle of the object, where old scripts add it."""
+        flag = self.handleflag_reljointbaseframe
+        if handle < 0 or not handle & flag or self._tree.contains(handle):
+            return handle, relative_to
+        return handle & ~flag, relative_to | flag if relative_to >= 0 else relative_to
 
     def _joint_with_base_frame(self, relative_to: int) -> int:
         """Return the joint of a handle with sim.handleflag_reljointbaseframe; -1 for other handles."""
@@ -257,6 +268,20 @@ class ObjectFunctions(ApiContext):
         return self._resolve(relative_to)
 
     def _set_pose(self, handle: Handle, pose: Vector, relative_to: int) -> None:
+        free, relative_to = self._without_flag(handle, relative_to)
+        try:
+            self._set_free_pose(free, pose, relative_to)
+        except ValueError as error:
+            if free == handle or not self._tree.contains(free):
+                raise
+            # Models of omni-wheels put the frame of a free joint back in each step.
+            kept = self._caller.shared.log
+            text = f"{error}; sim.handleflag_reljointbaseframe has no effect"
+            if kept.is_first(log.SCRIPT_WARNING, text):
+                kept.add(log.SCRIPT_WARNING, self._caller.object_path, text)
+                write_line(sys.stderr, f"warning: {self._caller.object_path}: {text}")
+
+    def _set_free_pose(self, handle: Handle, pose: Vector, relative_to: int) -> None:
         handle = self._resolve(handle)
         length = math.hypot(*pose[3:])
         if math.isfinite(length) and length > _LEAST_LENGTH:  # numbers that scripts have computed

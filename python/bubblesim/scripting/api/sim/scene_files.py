@@ -13,12 +13,13 @@ from bubblesim.scripting.api.functions import for_remote_only
 from bubblesim.scripting.api.sim.created_sensors import CreatedSensorFunctions
 
 _SCENES = (".sdf", ".world", ".urdf")
+_FOREIGN = (".ttt", ".ttm")
 
 
 class SceneFileFunctions(CreatedSensorFunctions):
-    """Of a path only the name of the file counts: 'arm.ttm' is the model 'arm' of the folders that are searched. A
-    Python script, and a client of a node with --remote-trusted, can also give the path of an .sdf file, or of a .ttt or
-    .ttm file next to one."""
+    """Of a path only the name of the file counts: 'robots/arm.ttm' is the model 'arm' of the folders that are searched.
+    A Python script, and a client of a node with --remote-trusted, can also give the path of an .sdf, .ttt or .ttm file;
+    an .sdf file of the same name beside it comes first."""
 
     @for_remote_only
     def loadScene(self, file: str) -> Any:
@@ -55,15 +56,17 @@ class SceneFileFunctions(CreatedSensorFunctions):
     def loadModel(self, file: str) -> int:
         """Add a model by the name of its file and return its handle; not in sysCall_sensing.
 
-        It is searched as models/NAME/model.sdf and NAME.sdf in the folder of the scene and the folders of scenes. A
-        name that is taken gets a number. It stays until it is removed.
+        It is searched as models/NAME/model.sdf and NAME.sdf, then as NAME.ttm and models/NAME.ttm, in the folder of the
+        scene and the folders of scenes. A name that is taken gets a number; aliases of a .ttm file stay. It stays until
+        it is removed. The scripts of a .ttm file run as those of a .ttt file do.
         """
         name = stem(file)
         folders = [self._own_folder(), *map(Path, scene_folders())]
-        places = [
-            place for folder in folders for place in (folder / "models" / name / "model.sdf", folder / f"{name}.sdf")
-        ]
+        kinds = (f"models/{name}/model.sdf", f"{name}.sdf"), (f"{name}.ttm", f"models/{name}.ttm")
+        places = [folder / place for kind in kinds for folder in folders for place in kind]
         found = self._find("sim.loadModel", "model", file, places)
+        if found.suffix in _FOREIGN:
+            return self._add_foreign_models(found)
         try:
             return self._add_model(found.read_text(encoding="utf-8"), name)
         except SceneError as error:
@@ -81,7 +84,7 @@ class SceneFileFunctions(CreatedSensorFunctions):
         if self._caller.may_use_files and Path(file).parent != Path():
             given = Path(file)
             searched.insert(0, given if given.suffix in _SCENES else given.with_suffix(".sdf"))
-            if what == "scene" and given.suffix == ".ttt":
+            if given.suffix in _FOREIGN:
                 searched.insert(1, given)
         found = next((place for place in searched if place.is_file()), None)
         if found is None:

@@ -12,6 +12,7 @@ import numpy as np
 
 from bubblesim._core import camera_optics, override_image, read_camera
 from bubblesim.scene_state.handle_error import MAX_HANDLE, HandleError
+from bubblesim.scene_state.object_tree import acting_object
 from bubblesim.scripting.api.functions import script_module
 from bubblesim.scripting.api.kinds import Handle, Integers, Numbers, Vector3
 from bubblesim.scripting.api.vision import work_images
@@ -280,7 +281,8 @@ class SimVision:
 
     def _resolve(self, sensor: int) -> int:
         if sensor == _SELF:
-            return self._caller.object_handle
+            own, world = self._caller.object_handle, self._simulation.world
+            return acting_object(world, own)
         if not 0 <= sensor <= MAX_HANDLE:
             raise HandleError(sensor)
         edits = self._caller.shared.edits
