@@ -281,8 +281,7 @@ class SimVision:
 
     def _resolve(self, sensor: int) -> int:
         if sensor == _SELF:
-            own, world = self._caller.object_handle, self._simulation.world
-            return acting_object(world, own)
+            return acting_object(self._simulation.world, self._caller.object_handle)
         if not 0 <= sensor <= MAX_HANDLE:
             raise HandleError(sensor)
         edits = self._caller.shared.edits
