@@ -38,5 +38,5 @@ def test_cpp_is_formatted() -> None:
 
 
 def test_shell_scripts_parse() -> None:
-    for name in ("setup", "test", "demo", "docs", "package", "environment/activate.bash", "environment/sanitize.bash"):
+    for name in ("setup", "test", "demo", "docs", "environment/activate.bash", "environment/sanitize.bash"):
         check("bash", "-n", f"scripts/{name}")
