@@ -74,7 +74,7 @@ print(json.dumps({"reached": reached, "at": at, "cancelled": cancelled, "moved":
 PLANS = (
     ROBOT.split("client = ")[0]
     .replace("grid = ", "cells[18:22, 28:32] = 100\ngrid = ", 1)
-    .replace("[math.inf] * 4", "[1.0] + [math.inf] * 3")
+    .replace("[math.inf] * 4", "[1.02] + [math.inf] * 3, range_max=10.0")
     + """
 from nav_msgs.srv import GetPlan, GetPlanRequest
 rospy.wait_for_service("/move_base/make_plan", 60)

@@ -82,6 +82,8 @@ class MoveBase:
         self._maps = MoveBaseMaps((self._map_frame, self._base_frame), footprint, given, self._pose_in)
         self._process = _start_driver(driver, parameters)
         rospy.on_shutdown(self._process.terminate)
+        while self._driver_goal.get_num_connections() == 0 and self._process.poll() is None and not rospy.is_shutdown():
+            rospy.rostime.wallsleep(0.05)  # a goal that comes before the driver would be lost
         self._server = actionlib.SimpleActionServer("move_base", MoveBaseAction, self._execute, auto_start=False)
         self._server.start()
 

@@ -44,6 +44,7 @@ class MoveBaseMaps:
             name: _inflation(given.get(name, {}), footprint.radius) for name in ("global_costmap", "local_costmap")
         }
         self._lock = threading.Lock()
+        self._known: Any = None  # origin and cells of the newest map
         self._grid: GridMap | None = None
         self._hits: list[Point] = []  # in the robot's frame
         self._costmaps = {
@@ -58,8 +59,9 @@ class MoveBaseMaps:
             rospy.Timer(rospy.Duration.from_sec(1.0 / frequency), lambda _: self._publish_local(), reset=True)
 
     def _on_map(self, message: Any) -> None:
-        if not message.data:
+        if not message.data or (message.info.origin, message.data) == self._known:
             return
+        self._known = message.info.origin, message.data
         grid = GridMap.from_message(message)
         with self._lock:
             self._grid = grid

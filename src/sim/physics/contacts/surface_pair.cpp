@@ -27,6 +27,7 @@ struct Softness {
   double cfm = 0;
   bool rigid = true;
   bool has_own_correction = false;
+  double least = 0;  // of the softness of a rigid contact
 };
 
 /// Springs in series, dampers in parallel: their combined effect in a step.
@@ -35,9 +36,12 @@ Softness soften(const Surface& a, const Surface& b, double step) {
   if (a.kp || b.kp) {
     const auto compliance = [](const Surface& surface) { return 1 / std::max(surface.kp.value_or(kRigid), kSoftest); };
     const double kp = 1 / (compliance(a) + compliance(b));
-    if (kp >= kStiff) return made;
     const double kd = a.kd.value_or(0) + b.kd.value_or(0);
-    return {dContactSoftERP | dContactSoftCFM, step * kp / (step * kp + kd), 1 / (step * kp + kd), false, true};
+    if (kp >= kStiff) {
+      made.least = 1 / (step * kp + kd);
+      return made;
+    }
+    return {dContactSoftERP | dContactSoftCFM, step * kp / (step * kp + kd), 1 / (step * kp + kd), false, true, 0};
   }
   if (const Optional erp = lower(a.soft_erp, b.soft_erp)) {
     made.erp = *erp;
@@ -87,6 +91,7 @@ SurfacePair combine(const Surface& a, const Surface& b, double step) {
   made.soft_erp = softness.erp;
   made.soft_cfm = softness.cfm;
   pair.has_own_correction = softness.has_own_correction;
+  pair.least_softness = softness.least;
   pair.sink = std::max(lower(a.min_depth, b.min_depth).value_or(kSurfaceLayer), kSurfaceLayer);
   // Sink to the full depth at once: otherwise each wheel rests at a different depth, and a robot leans.
   if (softness.rigid && pair.sink > kSurfaceLayer && made.bounce == 0) pair.sink_speed = kMaxCorrectingVelocity;
@@ -101,7 +106,7 @@ void share_load(double inverse_mass, double step, SurfacePair& pair) {
   // A contact that yields bounces less.
   if ((pair.ode.mode & (dContactSoftCFM | dContactBounce)) != 0) return;
   pair.ode.mode |= dContactSoftCFM;
-  pair.ode.soft_cfm = std::max(kLoadSharing * step * inverse_mass, kConstraintSoftness);
+  pair.ode.soft_cfm = std::max({kLoadSharing * step * inverse_mass, kConstraintSoftness, pair.least_softness});
 }
 
 }  // namespace bubblesim

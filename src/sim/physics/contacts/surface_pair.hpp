@@ -15,6 +15,7 @@ struct SurfacePair {
   bool has_own_correction = false;    ///< a stiffness or an error correction is given
   double sink = 0;                    ///< m, allowed penetration depth
   double sink_speed = 0;              ///< m/s, maximum sinking speed of a rigid contact; 0: not actively sunk
+  double least_softness = 0;          ///< of a rigid contact with a stiffness, m/s per N
   double max_depth = 0;               ///< m; deeper overlaps are clamped to this, so that bodies do not fly apart
 };
 

@@ -3,21 +3,11 @@
 #include <cmath>
 
 #include "physics/joints/define.hpp"
-#include "physics/ode/ode_math.hpp"
 
 namespace bubblesim {
 namespace {
 
-constexpr double kOnAxis = 1e-3;  // m
-
 bool beyond_half_a_turn(double limit) { return std::isfinite(limit) && std::abs(limit) > M_PI; }
-
-/// Whether a body turns without limits about an axis through its centre of mass, as wheels and rotors do.
-bool is_rotor(const AxisDescription& axis, dBodyID body, const Vector3& anchor, const Vector3& direction) {
-  if (body == nullptr || std::isfinite(axis.lower) || std::isfinite(axis.upper)) return false;
-  const Vector3 centre = to_vector(dBodyGetPosition(body));
-  return (centre - anchor).cross(direction).norm() < kOnAxis;
-}
 
 class Hinge final : public Joint {
  public:
@@ -29,7 +19,6 @@ class Hinge final : public Joint {
     dJointSetHingeAnchor(joint_.get(), site.pose.position.x(), site.pose.position.y(), site.pose.position.z());
     dJointSetHingeAxis(joint_.get(), direction.x(), direction.y(), direction.z());
     const AxisDescription& axis = description.axes[0];
-    if (is_rotor(axis, site.child, site.pose.position, direction)) rotor_ = site.child;
     counts_turns_ = beyond_half_a_turn(axis.lower) || beyond_half_a_turn(axis.upper) || axis.spring_stiffness > 0;
     add_rows(world, Motor(joint_.get(), dJointSetHingeParam, 0), Motion::kTurns, {direction, site.child, site.parent});
   }
@@ -43,7 +32,6 @@ class Hinge final : public Joint {
 
  private:
   void follow(double) override {
-    if (rotor_ != nullptr) turn_about_axis();
     if (!counts_turns_) return;
     followed_ = position(0);
     // ODE compares angles from -pi to pi with the stops: shift the stops to the current turn.
@@ -53,18 +41,7 @@ class Hinge final : public Joint {
     if (counts_turns_) archive(followed_);
   }
 
-  /// ODE turns a body by its whole angular velocity at once. A wheel that spins with s while its robot turns with w
-  /// would lean by s w h^2 / 2 in each substep, so that it stood on its edge. Turned about its own axis first, and
-  /// about the others then, it keeps to its joint.
-  void turn_about_axis() {
-    dVector3 axis;
-    dJointGetHingeAxis(joint_.get(), axis);
-    dBodySetFiniteRotationMode(rotor_, 1);
-    dBodySetFiniteRotationAxis(rotor_, axis[0], axis[1], axis[2]);
-  }
-
   ode::JointHandle joint_;
-  dBodyID rotor_ = nullptr;  // the child, if it is one
   bool counts_turns_ = false;
   double followed_ = 0;  // rad, position at the last substep
 };
