@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The impulses of constraints with bounds: find x within its bounds so that the velocities v = A x - b vanish, but where
-// a bound is reached, v drives x against it. Friction is Coulomb's, not associated: discs whose radius follows the
-// normal impulse.
+// The impulses of constraints with bounds: find x within its bounds so that the velocities v = A x - b vanish, but
+// where a bound is reached, v drives x against it. Friction is Coulomb's, not associated: discs whose radius follows
+// the normal impulse.
 //
-// A semi-smooth Newton method on the natural map x - P(x - r v) (Alart and Curnier, Computer Methods in Applied Mechanics
-// and Engineering 92, 1991), with a line search; where it does not decrease, sweeps of projected Gauss-Seidel.
+// A semi-smooth Newton method on the natural map x - P(x - r v) (Alart and Curnier, Computer Methods in Applied
+// Mechanics and Engineering 92, 1991), with a line search; where it does not decrease, sweeps of projected
+// Gauss-Seidel.
 #pragma once
 
 #include <Eigen/Core>

@@ -53,7 +53,8 @@ class ConstraintRows {
     double start = 0;
   };
 
-  int add(const TreeBody& first, const TreeBody& second, const Vector3& turn, const Vector3& push, const Vector3& point);
+  int add(const TreeBody& first, const TreeBody& second, const Vector3& turn, const Vector3& push,
+          const Vector3& point);
   Side& side_of(Row& row, Tree* tree);
   void add_way(Row& row, const TreeBody& body, const Vector3& turn, const Vector3& push, const Vector3& point,
                double sign);

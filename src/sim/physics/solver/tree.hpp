@@ -2,8 +2,8 @@
 // A tree of rigid links in generalised coordinates: topology, kinematics, mass matrix and its factors.
 //
 // After R. Featherstone, "Rigid Body Dynamics Algorithms", 2008: composite rigid bodies (chapter 6), recursive
-// Newton-Euler (chapter 5), and the factors L^T D L that keep the zeros of branches (section 6.5). All vectors have world
-// axes; moments and positions refer to the origin of the tree, the first link's centre of mass.
+// Newton-Euler (chapter 5), and the factors L^T D L that keep the zeros of branches (section 6.5). All vectors have
+// world axes; moments and positions refer to the origin of the tree, the first link's centre of mass.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,12 +21,12 @@ enum class TreeMotion { kFree, kFixed, kTurns, kSlides, kScrews, kTwoAxes, kBall
 struct TreeLink {
   int parent = -1;  ///< a link that was added before; -1: the world
   TreeMotion motion = TreeMotion::kFree;
-  Vector3 axis{0, 0, 1};   ///< unit length, in the joint's frame
-  Vector3 axis2{0, 0, 1};  ///< of kTwoAxes: fixed in the child, at the angle 0
-  double lead = 0;         ///< m/rad, of kScrews
-  Pose in_parent;          ///< the joint's frame in the parent, whose origin is its centre of mass
-  Pose in_child;           ///< likewise in this link
-  double mass = 1;         ///< kg
+  Vector3 axis{0, 0, 1};                  ///< unit length, in the joint's frame
+  Vector3 axis2{0, 0, 1};                 ///< of kTwoAxes: fixed in the child, at the angle 0
+  double lead = 0;                        ///< m/rad, of kScrews
+  Pose in_parent;                         ///< the joint's frame in the parent, whose origin is its centre of mass
+  Pose in_child;                          ///< likewise in this link
+  double mass = 1;                        ///< kg
   Matrix3 inertia = Matrix3::Identity();  ///< kg m^2, about the centre of mass, in the link's axes
 };
 
@@ -91,8 +91,8 @@ class Tree {
   /// The generalised forces that velocities and wrenches on links (about their centres of mass) need, without those of
   /// accelerated rates.
   void bias(const Eigen::VectorXd& rates, const std::vector<Wrench>& wrenches, Eigen::VectorXd& forces);
-  /// Changes the rates by a substep: (M + added) du = step (forces - bias), with the bias at the mean of the rates before
-  /// and after, which makes it of second order.
+  /// Changes the rates by a substep: (M + added) du = step (forces - bias), with the bias at the mean of the rates
+  /// before and after, which makes it of second order.
   void push(double step, const std::vector<Wrench>& wrenches, const Eigen::VectorXd& forces);
   /// Moves the joints by the rates.
   void move(double step);
