@@ -377,6 +377,12 @@ enum class OnDivergence {
   kRemove,  ///< the model is removed
 };
 
+/// Who solves the joints and contacts of islands with joints.
+enum class Solver {
+  kOde,
+  kBubblesim  ///< trees in generalised coordinates: docs/adr/0050
+};
+
 struct SceneDescription {
   std::string name;
   std::string world_name;  ///< of the <world>; the scene's name when the file has none
@@ -385,6 +391,7 @@ struct SceneDescription {
   double time_step = 0.05;       ///< s, of one simulation step
   double substep = 0.005;        ///< s, of one physics substep; divides time_step
   OnDivergence on_divergence = OnDivergence::kPause;
+  Solver solver = Solver::kOde;
   Environment environment;
   std::vector<ModelDescription> models;
   std::vector<FrameDescription> frames;  ///< of no model: they stay in the world

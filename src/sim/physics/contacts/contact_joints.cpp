@@ -32,7 +32,7 @@ void join_contacts(Substep& substep) {
   ContactLookup lookup(contacts.memory);
   for (const FoundPair& pair : contacts.found.pairs) {
     const int island = contacts.islands.of(pair.first->model);
-    if (!contacts.islands.is_jointed(island)) continue;
+    if (!contacts.islands.is_jointed(island) || contacts.islands.is_by_trees(island)) continue;
     const RememberedPair* remembered = lookup.pair(pair);
     FoundContact* points = &contacts.found.points[pair.begin];
     limit_friction(pair, remembered, contacts.memory, substep.duration, contacts.islands.is_beyond_limit(island),
@@ -43,7 +43,8 @@ void join_contacts(Substep& substep) {
 
 void gather_contacts(Contacts& contacts) {
   for (const FoundPair& pair : contacts.found.pairs) {
-    if (!contacts.islands.is_jointed(contacts.islands.of(pair.first->model))) continue;
+    const int island = contacts.islands.of(pair.first->model);
+    if (!contacts.islands.is_jointed(island) || contacts.islands.is_by_trees(island)) continue;
     for (std::size_t i = pair.begin; i < pair.begin + static_cast<std::size_t>(pair.count); ++i) {
       take_force(pair, contacts.found.points[i]);
     }

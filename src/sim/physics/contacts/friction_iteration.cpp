@@ -20,7 +20,9 @@ constexpr double kMostChange = 2;     // factor of a load from solution to solut
 
 double greatest_mu(const FoundContact& point) { return std::max(point.limit.mu, point.limit.mu2); }
 
-bool is_exact(Islands& islands, int island) { return islands.is_jointed(island) && !islands.is_beyond_limit(island); }
+bool is_exact(Islands& islands, int island) {
+  return islands.is_jointed(island) && !islands.is_by_trees(island) && !islands.is_beyond_limit(island);
+}
 
 /// Whether a greater limit would give more friction.
 bool is_limited(const FoundPair& pair, const FoundContact& point, double relied) {

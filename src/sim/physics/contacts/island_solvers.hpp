@@ -7,6 +7,7 @@
 #include "physics/contacts/contact_solver.hpp"
 #include "physics/contacts/friction_iteration.hpp"
 #include "physics/contacts/substep.hpp"
+#include "physics/contacts/tree_solver.hpp"
 
 namespace bubblesim {
 
@@ -24,6 +25,7 @@ class IslandSolvers {
     const RememberedPair* remembered = nullptr;  // null when the shapes did not touch before
   };
 
+  void solve_rest(Substep& substep);
   void solve_free_contacts(Substep& substep);
   bool step_exactly(Substep& substep);
   bool step_by_islands(Substep& substep, bool iterate_all);
@@ -31,6 +33,7 @@ class IslandSolvers {
   std::vector<FreePair> free_pairs_;
   ContactSolver contact_solver_;          // of islands without joints
   FrictionIteration friction_iteration_;  // of islands with joints
+  TreeSolver tree_solver_;                // likewise, where the scene selects it
   std::vector<KeptBody> bodies_before_;   // of the last exact step
 };
 

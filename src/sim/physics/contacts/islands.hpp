@@ -27,6 +27,7 @@ class Islands {
     contacts_.assign(models, 0);
     models_.assign(models, 1);
     jointed_.assign(models, false);
+    by_trees_.assign(models, false);
     most_ = 0;
   }
 
@@ -51,6 +52,9 @@ class Islands {
   int of(int model) { return root(model); }
   /// Whether a model of the island has joints.
   bool is_jointed(int island) const { return jointed_[index(island)]; }
+  /// Whether an island is solved by trees, not by ODE. Set when its contacts are known.
+  bool is_by_trees(int island) const { return by_trees_[index(island)]; }
+  void set_by_trees(int island, bool by_trees) { by_trees_[index(island)] = by_trees; }
   int contacts(int island) const { return contacts_[index(island)]; }
   void set_contacts(int island, int contacts) { contacts_[index(island)] = contacts; }
   /// Maximum number of contacts in an island for the exact solver.
@@ -73,6 +77,7 @@ class Islands {
   std::vector<int> contacts_;
   std::vector<int> models_;
   std::vector<bool> jointed_;
+  std::vector<bool> by_trees_;
   int most_ = 0;
 };
 

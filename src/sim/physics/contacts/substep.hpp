@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bubblesim/math.hpp"
+#include "bubblesim/scene.hpp"
 #include "bubblesim/world_devices.hpp"
 #include "physics/contacts/contact_memory.hpp"
 #include "physics/contacts/found_contacts.hpp"
@@ -29,6 +30,7 @@ struct Substep {
   const Spaces& spaces;
   OdeWorld& ode;
   Contacts& contacts;
+  Solver solver = Solver::kOde;  // of islands with joints
 };
 
 }  // namespace bubblesim

@@ -155,6 +155,15 @@ void Joint::drive(double step) {
   for (const int index : stopped_) set_stops(index, step);
 }
 
+AxisForces Joint::forces(int axis) const {
+  const Axis& asked = axes_[static_cast<std::size_t>(axis)];
+  AxisForces made;
+  if (asked.motor != nullptr) made.motor = asked.motor->force();
+  if (asked.friction != nullptr) made.friction = asked.friction->force();
+  if (asked.damper != nullptr) made.damper = asked.damper->force();
+  return made;
+}
+
 void Joint::drive_motor(int index, double step) {
   const Axis& axis = axes_[static_cast<std::size_t>(index)];
   const AxisDescription& description = axis.description;

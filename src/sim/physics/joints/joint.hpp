@@ -26,6 +26,11 @@ struct JointSite {
   Vector3 child_shaft;
 };
 
+/// What acts along an axis in a substep, beside its stops.
+struct AxisForces {
+  std::optional<MotorForce> motor, friction, damper;
+};
+
 class Joint {
  public:
   explicit Joint(std::vector<AxisDescription> axes);
@@ -61,6 +66,9 @@ class Joint {
 
   /// Sets ODE's motors for the next substep of `step` seconds.
   void drive(double step);
+
+  /// What drive() has set for an axis.
+  AxisForces forces(int axis) const;
 
   /// Saves or restores commands, and what the joint remembers of the last substep.
   void transfer(StateArchive& archive);

@@ -17,12 +17,21 @@ struct AxisLine {
   int carrier = 1;  ///< the body that the direction is fixed in: 1 the first, 2 the second
 };
 
+/// What a motor does in a substep.
+struct MotorForce {
+  double velocity = 0;   ///< m/s or rad/s, of the first body relative to the second
+  double max_force = 0;  ///< N or N m
+  double softness = 0;   ///< velocity that a unit of force lets through
+};
+
 class Motor {
  public:
   using SetParameter = void (*)(dJointID, int, dReal);
+  using GetParameter = dReal (*)(dJointID, int);
 
   /// The rows of `joint` for one of its axes; `group` is ODE's index of that axis, from 0.
-  Motor(dJointID joint, SetParameter set, int group) : joint_(joint), set_(set), group_(group) {}
+  Motor(dJointID joint, SetParameter set, GetParameter get, int group)
+      : joint_(joint), set_(set), get_(get), group_(group) {}
   /// A separate motor joint between the same bodies.
   static Motor turning(dWorldID world, const AxisLine& line);
   static Motor sliding(dWorldID world, const AxisLine& line);
@@ -32,6 +41,8 @@ class Motor {
   /// Sets an ODE parameter dParam..., given without the offset of the group.
   void set(int parameter, double value) const { set_(joint_, group_ * dParamGroup + parameter, value); }
 
+  MotorForce force() const;
+
   /// Holds `velocity` with a force of at most `max_force` (N or N m), which may be infinite.
   void hold(double velocity, double max_force) const;
   /// Applies a force of `coefficient` (N s/m or N m s/rad) times the difference to `velocity`. Uses the velocity at the
@@ -40,11 +51,13 @@ class Motor {
 
  private:
   using SetAxis = void (*)(dJointID, int, int, dReal, dReal, dReal);
-  static Motor between(const AxisLine& line, ode::JointHandle joint, SetAxis set_axis, SetParameter set);
+  static Motor between(const AxisLine& line, ode::JointHandle joint, SetAxis set_axis, SetParameter set,
+                       GetParameter get);
 
   ode::JointHandle own_;  // null when the rows are part of another joint
   dJointID joint_;
   SetParameter set_;
+  GetParameter get_;
   int group_;
 };
 

@@ -30,6 +30,8 @@ class MotorMeter {
   void aim();
   /// Call after a substep of `step` seconds.
   void gather(double step);
+  /// Adds what a motor did that is not ODE's, N s or N m s on the child.
+  void add(double impulse) { impulse_ += impulse; }
   void clear() { impulse_ = 0; }
   /// Of the motor on the child since clear(), N s or N m s.
   double impulse() const { return impulse_; }

@@ -23,6 +23,8 @@
 
 namespace bubblesim {
 
+class TreeModel;
+
 /// The link that carries the frame of a model.
 struct ModelFrame {
   ObjectId canonical_link = kNoObject;
@@ -62,6 +64,7 @@ struct PlacedModel {
   std::vector<const SensorDescription*> described_sensors;
   std::map<std::size_t, MotionMeter> motion_meters;  // of its inertial measurement units, by their index in `sensors`
   PlanarMotor planar_motor;
+  std::shared_ptr<TreeModel> trees;  // null until it is solved as such
   Rest rest;
 };
 

@@ -82,6 +82,7 @@ struct WorldState {
   std::uint64_t revision = 0;                                         // counts additions and removals of models
   bool has_scene_models = true;
 
+  Solver solver = Solver::kOde;
   OdeWorld ode;
   Spaces spaces;
   std::vector<std::unique_ptr<PlacedModel>> models;  // in the order in which they were added

@@ -53,6 +53,7 @@ void find_contacts(Substep& substep) {
   search_contacts(substep);
   while (wake_touched(substep.moving, substep.contacts.found)) search_contacts(substep);
   order_contacts(substep.contacts);
+  if (substep.solver == Solver::kBubblesim) TreeSolver::choose(substep);
 }
 
 void drive_joints(const MovingModels& moving, double step) {
@@ -66,17 +67,22 @@ void drive_joints(const MovingModels& moving, double step) {
   }
 }
 
-/// Rotates the bodies with unequal moments of inertia: call before and after ODE's step.
-void begin_rotations(const MovingModels& moving, double step) {
-  for (PlacedModel* model : moving) {
-    for (Rotation& rotation : model->rotations) rotation.begin(step);
+template <class Do>
+void for_each_rotation(Substep& substep, const Do& act) {
+  Islands& islands = substep.contacts.islands;
+  for (std::size_t i = 0; i < substep.moving.size(); ++i) {
+    if (islands.is_by_trees(islands.of(static_cast<int>(i)))) continue;
+    for (Rotation& rotation : substep.moving[i]->rotations) act(rotation);
   }
 }
 
-void end_rotations(const MovingModels& moving, double step) {
-  for (PlacedModel* model : moving) {
-    for (Rotation& rotation : model->rotations) rotation.end(step);
-  }
+/// Rotates the bodies of ODE with unequal moments of inertia: call before and after ODE's step.
+void begin_rotations(Substep& substep) {
+  for_each_rotation(substep, [&](Rotation& rotation) { rotation.begin(substep.duration); });
+}
+
+void end_rotations(Substep& substep) {
+  for_each_rotation(substep, [&](Rotation& rotation) { rotation.end(substep.duration); });
 }
 
 void begin_meters(const MovingModels& moving) {
@@ -102,7 +108,7 @@ void end_meters(const MovingModels& moving, const Vector3& gravity, double step)
 
 void simulate(WorldState& state, const Wrenches& wrenches, double step) {
   const MovingModels& moving = state.moving;
-  Substep substep{step, state.gravity, moving, state.spaces, state.ode, state.contacts};
+  Substep substep{step, state.gravity, moving, state.spaces, state.ode, state.contacts, state.solver};
   try {
     push_links(state, wrenches);
     for (const DeviceSlot& slot : state.devices) push_links(state, slot.wrenches);
@@ -113,9 +119,9 @@ void simulate(WorldState& state, const Wrenches& wrenches, double step) {
     begin_meters(moving);
     correct_joints(moving, state.ode.id(), step);
     note_motion(moving);
-    begin_rotations(moving, step);
+    begin_rotations(substep);
     state.solvers.solve(substep);
-    end_rotations(moving, step);
+    end_rotations(substep);
     stop_at_impacts(substep);
     gather_contacts(state.contacts);
     rest(substep);

@@ -60,6 +60,7 @@ World::World(const Scene& scene, std::uint64_t seed) {
 void World::build(const Scene& scene, std::uint64_t seed) {
   state_.reset(std::make_unique<WorldState>(scene.description().gravity, seed).release());
   state_->shared_tree = scene.tree();
+  state_->solver = scene.description().solver;
   state_->scene_frames = scene.shared_frames();
   place_frames(*state_, *state_->scene_frames);
   for (std::size_t i = 0; i < scene.prepared().models.size(); ++i) {
@@ -102,6 +103,7 @@ void World::reset() {
   // order of its lists. Static models have no state.
   const bool keeps_statics = !state_->interrupted;
   WorldStateHandle built(std::make_unique<WorldState>(state_->first_gravity, state_->seed).release());
+  built->solver = state_->solver;
   built->shared_tree = state_->shared_tree;
   built->own_tree = state_->own_tree;
   built->frames = std::move(state_->frames);

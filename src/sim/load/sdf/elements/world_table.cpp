@@ -44,6 +44,7 @@ const char* const kWorldTable = R"TABLE(
       ode any ~ the solver chooses its parameters
       profile any ~ Gazebo's
       bubblesim:substeps text
+      bubblesim:solver text
     scene none
       ambient color '0.4 0.4 0.4 1' required
       background color '0.7 0.7 0.7 1' required

@@ -25,6 +25,7 @@ namespace bubblesim {
 namespace {
 
 constexpr const char* kOnDivergence = "bubblesim:on_divergence";
+constexpr const char* kSolver = "bubblesim:solver";
 constexpr const char* kTimeStep = "bubblesim:time_step";
 
 void read_policy(const SdfElement& world, SceneDescription& scene, LoadContext& context) {
@@ -40,6 +41,18 @@ void read_policy(const SdfElement& world, SceneDescription& scene, LoadContext& 
   context.report(world.source(kOnDivergence), "",
                  "<" + std::string(kOnDivergence) + "> is '" + *policy + "', it must be pause, reset or remove" +
                      did_you_mean(*policy, {"pause", "reset", "remove"}));
+}
+
+void read_solver(const SdfElement& physics, SceneDescription& scene, LoadContext& context) {
+  const auto solver = own_text(physics, kSolver);
+  if (!solver || *solver == "ode") return;
+  if (*solver == "bubblesim") {
+    scene.solver = Solver::kBubblesim;
+    return;
+  }
+  context.report(physics.source(kSolver), "",
+                 "<" + std::string(kSolver) + "> is '" + *solver + "', it must be ode or bubblesim" +
+                     did_you_mean(*solver, {"ode", "bubblesim"}));
 }
 
 /// The longest step of whole physics substeps that does not exceed the default, or a single substep.
@@ -61,6 +74,7 @@ SdfElement default_physics(const SdfElement& world) {
 std::optional<double> read_steps(const SdfElement& world, SceneDescription& scene, LoadContext& context) {
   const SdfElement physics = default_physics(world);
   scene.substep = physics.number("max_step_size");
+  read_solver(physics, scene, context);
   const std::optional<double> substeps = read_substeps(physics, context);
   if (const auto step = own_number(world, kTimeStep, "", context)) {
     scene.time_step = *step;

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/contacts/tree_model.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "physics/ode/constraint_defaults.hpp"
+#include "physics/ode/ode_math.hpp"
+
+namespace bubblesim {
+namespace {
+
+constexpr double kReachOfStop = 1000;  // rad/s^2 or m/s^2, with which an axis may reach a stop in a substep
+
+TreeMotion motion_of(const std::string& type) {
+  if (type == "prismatic") return TreeMotion::kSlides;
+  if (type == "screw") return TreeMotion::kScrews;
+  if (type == "fixed") return TreeMotion::kFixed;
+  if (type == "ball") return TreeMotion::kBall;
+  if (type == "universal" || type == "revolute2") return TreeMotion::kTwoAxes;
+  return TreeMotion::kTurns;
+}
+
+bool closes_loops(const std::string& type) {
+  const TreeMotion motion = motion_of(type);
+  return motion != TreeMotion::kScrews && motion != TreeMotion::kTwoAxes;
+}
+
+Pose in_body(const Link& link, const Pose& in_link) {
+  return {in_link.position - link.centre_of_mass, in_link.orientation};
+}
+
+}  // namespace
+
+std::size_t TreeModel::place_of(ObjectId link) const {
+  for (std::size_t i = 0; i < model_.links.size(); ++i) {
+    if (model_.links[i].object == link) return i;
+  }
+  return model_.links.size();
+}
+
+const Link& TreeModel::link_of(ObjectId link) const { return model_.links[place_of(link)]; }
+
+TreeBody TreeModel::body_of(ObjectId link) {
+  if (link == kNoObject) return {};
+  return {&tree_, numbers_[place_of(link)]};
+}
+
+TreeBody TreeModel::body(const Link& link) { return body_of(link.object); }
+
+TreeModel::TreeModel(const PlacedModel& model) : model_(model), numbers_(model.links.size(), -1) {
+  std::vector<bool> used(model.joints.size(), false);
+  const auto is_placed = [&](ObjectId link) { return link == kNoObject || numbers_[place_of(link)] >= 0; };
+  const auto grow = [&] {
+    bool any = false;
+    for (std::size_t i = 0; i < model.joints.size(); ++i) {
+      const PlacedJoint& joint = model.joints[i];
+      if (used[i] || !is_placed(joint.parent) || is_placed(joint.child)) continue;
+      used[i] = any = true;
+      add_link(i, joint.parent == kNoObject ? -1 : numbers_[place_of(joint.parent)]);
+    }
+    return any;
+  };
+  for (;;) {
+    while (grow()) {
+    }
+    // A root: a link that is not the child of a joint, or else the first one left.
+    std::size_t root = model.links.size();
+    for (std::size_t i = 0; i < model.links.size(); ++i) {
+      if (numbers_[i] >= 0) continue;
+      const bool is_child = std::any_of(model.joints.begin(), model.joints.end(),
+                                        [&](const PlacedJoint& joint) { return joint.child == model.links[i].object; });
+      if (!is_child || root == model.links.size()) root = i;
+      if (!is_child) break;
+    }
+    if (root == model.links.size()) break;
+    TreeLink link;
+    link.motion = TreeMotion::kFree;
+    numbers_[root] = tree_.add(link);
+    places_.push_back(root);
+  }
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    if (used[i]) continue;
+    loops_.push_back(i);
+    for (int k = 0; k < model.joints[i].joint->axis_count(); ++k) axes_.push_back({i, k, -1});
+  }
+}
+
+void TreeModel::add_link(std::size_t number, int parent) {
+  const PlacedJoint& joint = model_.joints[number];
+  const JointDescription& description = model_.description.joints[number];
+  const std::size_t place = place_of(joint.child);
+  TreeLink link;
+  link.parent = parent;
+  link.motion = motion_of(description.type);
+  if (!description.axes.empty()) link.axis = description.axes[0].direction;
+  if (description.axes.size() > 1) link.axis2 = description.axes[1].direction;
+  link.lead = link.motion == TreeMotion::kScrews ? description.screw_lead / (2 * M_PI) : 0;
+  link.in_parent = joint.parent == kNoObject ? joint.in_parent : in_body(link_of(joint.parent), joint.in_parent);
+  link.in_child = in_body(model_.links[place], joint.in_child);
+  numbers_[place] = tree_.add(link);
+  places_.push_back(place);
+  for (int k = 0; k < joint.joint->axis_count(); ++k) {
+    axes_.push_back({number, k, tree_.first_dof(numbers_[place]) + k});
+  }
+}
+
+bool TreeModel::can_solve(const PlacedModel& model) {
+  if (model.planar_motor.exists()) return false;
+  std::vector<ObjectId> children;
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const PlacedJoint& joint = model.joints[i];
+    const std::string& type = model.description.joints[i].type;
+    if (joint.joint == nullptr || joint.meter != nullptr || type == "gearbox") return false;
+    const bool again = std::find(children.begin(), children.end(), joint.child) != children.end();
+    if (again && !closes_loops(type)) return false;
+    children.push_back(joint.child);
+  }
+  return true;
+}
+
+void TreeModel::begin(const Vector3& gravity, double step) {
+  const std::size_t count = places_.size();
+  poses_.resize(count);
+  velocities_.resize(count);
+  wrenches_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    dBodyID body = model_.links[places_[i]].body.get();
+    poses_[i] = body_pose(body);
+    velocities_[i] = body_velocity(body);
+    tree_.set_inertia(static_cast<int>(i), model_.links[places_[i]].mass, inertia_of(body));
+  }
+  tree_.read(poses_, velocities_);
+  tree_.place();
+  tree_.set_velocities(tree_.rates());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Link& link = model_.links[places_[i]];
+    dBodyID body = link.body.get();
+    Wrench& wrench = wrenches_[i];
+    wrench = {to_vector(dBodyGetForce(body)), to_vector(dBodyGetTorque(body))};
+    if (dBodyGetGravityMode(body) != 0) wrench.force += gravity * link.mass;
+    // A velocity that the joints do not allow, such as one that was set, acts as an impulse.
+    const Twist allowed = tree_.velocity(static_cast<int>(i));
+    wrench.force += (velocities_[i].linear - allowed.linear) * (link.mass / step);
+    const Vector3 spin = body_pose(body).orientation.conjugate() * (velocities_[i].angular - allowed.angular);
+    wrench.torque += body_pose(body).orientation * (inertia_of(body) * spin) / step;
+  }
+  forces_ = Eigen::VectorXd::Zero(tree_.dofs());
+  added_ = Eigen::VectorXd::Zero(tree_.dofs());
+  for (const Axis& axis : axes_) {
+    if (axis.dof < 0) continue;
+    const std::optional<MotorForce> damper = model_.joints[axis.joint].joint->forces(axis.number).damper;
+    if (!damper || !(damper->softness > 0)) continue;
+    // A force at the velocity after the substep: stable for any coefficient.
+    const double coefficient = 1 / damper->softness;
+    added_[axis.dof] = step * coefficient;
+    forces_[axis.dof] = coefficient * (damper->velocity - tree_.rates()[axis.dof]);
+  }
+  tree_.factor(added_);
+  tree_.push(step, wrenches_, forces_);
+}
+
+void TreeModel::add_rows(ConstraintRows& rows, double step) {
+  motors_.clear();
+  for (const std::size_t joint : loops_) close_loop(joint, rows, step);
+  for (const Axis& axis : axes_) add_axis_rows(axis, rows, step);
+}
+
+int TreeModel::add_axis_row(const Axis& axis, ConstraintRows& rows) {
+  if (axis.dof >= 0) return rows.add_dof(tree_, axis.dof);
+  const PlacedJoint& joint = model_.joints[axis.joint];
+  const JointDescription& description = model_.description.joints[axis.joint];
+  const Pose frame = link_pose(link_of(joint.child)) * joint.in_child;
+  const Vector3 direction = frame.orientation * description.axes[0].direction;
+  if (description.type == "prismatic") {
+    return rows.add_force(body_of(joint.child), body_of(joint.parent), frame.position, direction);
+  }
+  return rows.add_torque(body_of(joint.child), body_of(joint.parent), direction);
+}
+
+void TreeModel::add_axis_rows(const Axis& axis, ConstraintRows& rows, double step) {
+  const PlacedJoint& joint = model_.joints[axis.joint];
+  const AxisForces forces = joint.joint->forces(axis.number);
+  const auto hold = [&](const MotorForce& force) {
+    const int row = add_axis_row(axis, rows);
+    rows.set(row, force.velocity, kConstraintSoftness / step, 0);
+    ConeBlock block;
+    block.row = row;
+    block.upper = force.max_force * step;
+    block.lower = -block.upper;
+    rows.bound(block);
+    return row;
+  };
+  if (forces.motor && forces.motor->max_force > 0) {
+    const int row = hold(*forces.motor);
+    MotorMeter* meter = joint.motor_meters[static_cast<std::size_t>(axis.number)].get();
+    if (meter != nullptr) motors_.push_back({meter, row});
+  }
+  if (forces.friction) hold(*forces.friction);
+  if (axis.dof < 0 && forces.damper && forces.damper->softness > 0) {
+    const int row = add_axis_row(axis, rows);
+    rows.set(row, forces.damper->velocity, forces.damper->softness / step, 0);
+    ConeBlock block;
+    block.row = row;
+    rows.bound(block);
+  }
+  add_stops(axis, rows, step);
+}
+
+void TreeModel::add_stops(const Axis& axis, ConstraintRows& rows, double step) {
+  const Joint& joint = *model_.joints[axis.joint].joint;
+  const AxisDescription& limits = joint.axis(axis.number);
+  if (!std::isfinite(limits.lower) && !std::isfinite(limits.upper)) return;
+  const double here = joint.position(axis.number);
+  const double speed = joint.velocity(axis.number);
+  const double reach = step * (2 * std::abs(speed) + step * kReachOfStop);
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto stop = [&](double gap, double lower, double upper) {
+    const int row = add_axis_row(axis, rows);
+    const bool beyond = lower == 0 ? gap > 0 : gap < 0;
+    rows.set(row, (beyond ? kErrorReduction : 1) * gap / step, kConstraintSoftness / step, 0);
+    ConeBlock block;
+    block.row = row;
+    block.lower = lower;
+    block.upper = upper;
+    rows.bound(block);
+  };
+  if (limits.lower == limits.upper) return stop(limits.lower - here, -infinity, infinity);
+  if (here - limits.lower < reach) stop(limits.lower - here, 0, infinity);
+  if (limits.upper - here < reach) stop(limits.upper - here, -infinity, 0);
+}
+
+void TreeModel::close_loop(std::size_t number, ConstraintRows& rows, double step) {
+  const PlacedJoint& joint = model_.joints[number];
+  const JointDescription& description = model_.description.joints[number];
+  const TreeMotion motion = motion_of(description.type);
+  const Pose child = link_pose(link_of(joint.child)) * joint.in_child;
+  const Pose parent = joint.parent == kNoObject ? joint.in_parent : link_pose(link_of(joint.parent)) * joint.in_parent;
+  const TreeBody first = body_of(joint.child);
+  const TreeBody second = body_of(joint.parent);
+  const Vector3 axis = description.axes.empty() ? Vector3(Vector3::UnitX())
+                                                : Vector3(parent.orientation * description.axes[0].direction);
+  const Vector3 across = axis.unitOrthogonal();
+  const std::array<Vector3, 3> directions = {axis, across, axis.cross(across)};
+  const Vector3 apart = child.position - parent.position;
+  const Quaternion turn = child.orientation * parent.orientation.conjugate();
+  const Vector3 turned = Vector3(turn.vec()) * (turn.w() < 0 ? -2 : 2);  // rad, while it is small
+  const Vector3 tilt =
+      description.axes.empty() ? Vector3() : axis.cross(child.orientation * description.axes[0].direction);
+  const auto hold = [&](int row, double error) {
+    rows.set(row, -kErrorReduction * error / step, kConstraintSoftness / step, 0);
+    ConeBlock block;
+    block.row = row;
+    rows.bound(block);
+  };
+  for (std::size_t i = motion == TreeMotion::kSlides ? 1 : 0; i < 3; ++i) {
+    hold(rows.add_force(first, second, child.position, directions[i]), directions[i].dot(apart));
+  }
+  if (motion == TreeMotion::kBall) return;
+  for (std::size_t i = motion == TreeMotion::kTurns ? 1 : 0; i < 3; ++i) {
+    const Vector3& error = motion == TreeMotion::kTurns ? tilt : turned;
+    hold(rows.add_torque(first, second, directions[i]), directions[i].dot(error));
+  }
+}
+
+void TreeModel::end(const ConstraintRows& rows, double step) {
+  for (const MotorRow& motor : motors_) motor.meter->add(rows.impulse(motor.row));
+  tree_.move(step);
+  tree_.place();
+  tree_.set_velocities(tree_.rates());
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    dBodyID body = model_.links[places_[i]].body.get();
+    const Pose pose = tree_.pose(static_cast<int>(i));
+    const Twist velocity = tree_.velocity(static_cast<int>(i));
+    dBodySetPosition(body, pose.position.x(), pose.position.y(), pose.position.z());
+    dBodySetQuaternion(body, to_ode(pose.orientation).data());
+    dBodySetLinearVel(body, velocity.linear.x(), velocity.linear.y(), velocity.linear.z());
+    dBodySetAngularVel(body, velocity.angular.x(), velocity.angular.y(), velocity.angular.z());
+    dBodySetForce(body, 0, 0, 0);
+    dBodySetTorque(body, 0, 0, 0);
+  }
+}
+
+}  // namespace bubblesim

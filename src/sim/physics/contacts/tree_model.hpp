@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A model as trees of links in generalised coordinates, with the rows of its joints.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "bubblesim/math.hpp"
+#include "physics/parts/placed_model.hpp"
+#include "physics/solver/constraint_rows.hpp"
+#include "physics/solver/tree.hpp"
+
+namespace bubblesim {
+
+class TreeModel {
+ public:
+  explicit TreeModel(const PlacedModel& model);
+
+  /// Whether all joints of a model are of kinds that trees know. Force-torque sensors read ODE's joints.
+  static bool can_solve(const PlacedModel& model);
+
+  TreeBody body(const Link& link);
+
+  /// Takes the state from ODE's bodies, and the rates to those at the end of the substep without motors, stops and
+  /// contacts.
+  void begin(const Vector3& gravity, double step);
+  /// Adds the rows of motors, friction, stops and closed loops.
+  void add_rows(ConstraintRows& rows, double step);
+  /// Reports the efforts of motors, moves the bodies, and clears their forces.
+  void end(const ConstraintRows& rows, double step);
+
+ private:
+  struct Axis {
+    std::size_t joint;  // of the model
+    int number;         // of the axis in its joint
+    int dof;            // -1: of a joint that closes a loop
+  };
+  struct MotorRow {
+    MotorMeter* meter;
+    int row;
+  };
+
+  void add_link(std::size_t joint, int parent);
+  void add_axis_rows(const Axis& axis, ConstraintRows& rows, double step);
+  int add_axis_row(const Axis& axis, ConstraintRows& rows);
+  void add_stops(const Axis& axis, ConstraintRows& rows, double step);
+  void close_loop(std::size_t joint, ConstraintRows& rows, double step);
+  TreeBody body_of(ObjectId link);
+  const Link& link_of(ObjectId link) const;
+  std::size_t place_of(ObjectId link) const;
+
+  const PlacedModel& model_;
+  Tree tree_;
+  std::vector<int> numbers_;         // in the tree, by link of the model
+  std::vector<std::size_t> places_;  // the reverse
+  std::vector<Axis> axes_;
+  std::vector<std::size_t> loops_;  // joints
+  std::vector<MotorRow> motors_;
+  std::vector<Pose> poses_;
+  std::vector<Twist> velocities_;
+  std::vector<Wrench> wrenches_;
+  Eigen::VectorXd forces_, added_;
+};
+
+}  // namespace bubblesim

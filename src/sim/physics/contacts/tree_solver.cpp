@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/contacts/tree_solver.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "physics/ode/constraint_defaults.hpp"
+#include "physics/ode/ode_math.hpp"
+
+namespace bubblesim {
+namespace {
+
+bool is_awake(const PlacedModel& model) {
+  return std::any_of(model.links.begin(), model.links.end(),
+                     [](const Link& link) { return dBodyIsEnabled(link.body.get()) != 0; });
+}
+
+Vector3 velocity_at(const Link& link, const dReal* point) {
+  if (link.body == nullptr) return {};
+  dVector3 velocity;
+  dBodyGetPointVel(link.body.get(), point[0], point[1], point[2], velocity);
+  return to_vector(velocity);
+}
+
+}  // namespace
+
+void TreeSolver::choose(Substep& substep) {
+  Islands& islands = substep.contacts.islands;
+  const int count = static_cast<int>(substep.moving.size());
+  for (int i = 0; i < count; ++i) {
+    const int island = islands.of(i);
+    islands.set_by_trees(island, islands.is_jointed(island));
+  }
+  for (int i = 0; i < count; ++i) {
+    PlacedModel& model = *substep.moving[static_cast<std::size_t>(i)];
+    const int island = islands.of(i);
+    if (!islands.is_by_trees(island)) continue;
+    if (!TreeModel::can_solve(model)) {
+      islands.set_by_trees(island, false);
+    } else if (model.trees == nullptr) {
+      model.trees = std::make_shared<TreeModel>(model);
+    }
+  }
+}
+
+TreeBody TreeSolver::body_of(const Collider& collider, const Substep& substep) const {
+  if (collider.model == Collider::kNoModel) return {};
+  return substep.moving[static_cast<std::size_t>(collider.model)]->trees->body(*collider.link);
+}
+
+void TreeSolver::solve(Substep& substep) {
+  Contacts& contacts = substep.contacts;
+  pairs_.clear();
+  ContactLookup lookup(contacts.memory);
+  for (const FoundPair& pair : contacts.found.pairs) {
+    const int island = contacts.islands.of(pair.first->model);
+    if (contacts.islands.is_by_trees(island)) pairs_.push_back({island, &pair, lookup.pair(pair)});
+  }
+  for (int i = 0; i < static_cast<int>(substep.moving.size()); ++i) {
+    if (contacts.islands.of(i) == i && contacts.islands.is_by_trees(i)) solve_island(i, substep);
+  }
+}
+
+void TreeSolver::solve_island(int island, Substep& substep) {
+  const double step = substep.duration;
+  std::vector<TreeModel*> models;
+  for (std::size_t i = 0; i < substep.moving.size(); ++i) {
+    if (substep.contacts.islands.of(static_cast<int>(i)) != island) continue;
+    if (is_awake(*substep.moving[i])) models.push_back(substep.moving[i]->trees.get());
+  }
+  if (models.empty()) return;
+  rows_.clear();
+  points_.clear();
+  for (TreeModel* model : models) model->begin(substep.gravity, step);
+  for (TreeModel* model : models) model->add_rows(rows_, step);
+  for (const IslandPair& pair : pairs_) {
+    if (pair.island == island) add_pair(pair, substep);
+  }
+  rows_.solve();
+  for (const PointRows& at : points_) {
+    const Vector3 n = to_vector(at.point->contact.geom.normal);
+    at.point->force = (n * rows_.impulse(at.normal) + at.tangent1 * rows_.impulse(at.normal + 1) +
+                       at.tangent2 * rows_.impulse(at.normal + 2)) /
+                      step;
+    if (at.spin < 0) continue;
+    at.point->torque = (at.tangent1 * rows_.impulse(at.spin) + at.tangent2 * rows_.impulse(at.spin + 1) +
+                        n * rows_.impulse(at.spin + 2)) /
+                       step;
+  }
+  for (TreeModel* model : models) model->end(rows_, step);
+}
+
+void TreeSolver::add_pair(const IslandPair& island_pair, Substep& substep) {
+  const FoundPair& pair = *island_pair.pair;
+  std::vector<FoundContact>& found = substep.contacts.found.points;
+  ExpectedContacts expected;
+  if (island_pair.remembered != nullptr) {
+    expected = expect(substep.contacts.memory, *island_pair.remembered, pair, &found[pair.begin], substep.duration);
+  }
+  const TreeBody a = body_of(*pair.first, substep);
+  const TreeBody b = body_of(*pair.second, substep);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(pair.count); ++i) {
+    add_point(a, b, pair, found[pair.begin + i], expected[i], substep.duration);
+  }
+}
+
+void TreeSolver::add_point(const TreeBody& a, const TreeBody& b, const FoundPair& pair, FoundContact& found,
+                           const ExpectedContact& start, double step) {
+  const dSurfaceParameters& surface = found.contact.surface;
+  const Vector3 position = to_vector(found.contact.geom.pos);
+  const Vector3 n = to_vector(found.contact.geom.normal);
+  PointRows& point = points_.emplace_back();
+  point.point = &found;
+  if ((surface.mode & dContactFDir1) != 0) {
+    point.tangent1 = to_vector(found.contact.fdir1);
+  } else {
+    dVector3 p;
+    dVector3 q;
+    dPlaneSpace(found.contact.geom.normal, p, q);
+    point.tangent1 = to_vector(p);
+  }
+  point.tangent2 = n.cross(point.tangent1);
+  const Vector3 force = n * start.normal + start.friction;
+
+  // As in ContactSolver::add_point().
+  const double cfm = (surface.mode & dContactSoftCFM) != 0 ? surface.soft_cfm : kConstraintSoftness;
+  const double motion = (surface.mode & dContactMotionN) != 0 ? surface.motionN : 0;
+  double target = surface.soft_erp / step * std::max(found.contact.geom.depth - kSurfaceLayer, 0.0) + motion;
+  if ((surface.mode & dContactBounce) != 0) {
+    const dReal* at = found.contact.geom.pos;
+    const double incoming = n.dot(velocity_at(*pair.second->link, at) - velocity_at(*pair.first->link, at));
+    if (incoming > surface.bounce_vel) target = std::max(target, surface.bounce * incoming + motion);
+  }
+  // A rigid contact yields only to what it did not bear before: a robot does not sink.
+  if (!found.has_own_correction) target += cfm * std::max(start.normal, 0.0);
+
+  const auto add = [&](const Vector3& direction, double wanted, double softness) {
+    const int row = rows_.add_force(a, b, position, direction);
+    rows_.set(row, wanted, softness / step, force.dot(direction) * step);
+    return row;
+  };
+  point.normal = add(n, target, cfm);
+  ConeBlock normal;
+  normal.row = point.normal;
+  normal.lower = 0;
+  rows_.bound(normal);
+  add(point.tangent1, 0, (surface.mode & dContactSlip1) != 0 ? surface.slip1 : 0);
+  add(point.tangent2, 0, (surface.mode & dContactSlip2) != 0 ? surface.slip2 : 0);
+  const double mu2 = (surface.mode & dContactMu2) != 0 ? surface.mu2 : surface.mu;
+  const auto bound = [&](int row, int size, double mu) {
+    ConeBlock block;
+    block.row = row;
+    block.size = size;
+    block.normal = point.normal;
+    block.mu = mu;
+    rows_.bound(block);
+  };
+  if (mu2 == surface.mu) {
+    bound(point.normal + 1, 2, surface.mu);
+  } else {
+    bound(point.normal + 1, 1, surface.mu);
+    bound(point.normal + 2, 1, mu2);
+  }
+  if ((surface.mode & dContactRolling) == 0) return;
+  for (const Vector3& axis : {point.tangent1, point.tangent2, n}) {
+    const int row = rows_.add_torque(a, b, axis);
+    rows_.set(row, 0, 0, start.torque.dot(axis) * step);
+    if (point.spin < 0) point.spin = row;
+  }
+  bound(point.spin, 2, surface.rho);
+  bound(point.spin + 2, 1, surface.rhoN);
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Islands with joints, solved as trees in generalised coordinates together with their contacts: see docs/adr/0050.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "physics/contacts/substep.hpp"
+#include "physics/contacts/tree_model.hpp"
+
+namespace bubblesim {
+
+/// Its vectors are working memory.
+class TreeSolver {
+ public:
+  /// Marks the islands that solve() will solve: those with joints whose models trees know.
+  static void choose(Substep& substep);
+  /// Solves these islands and moves their bodies.
+  void solve(Substep& substep);
+
+ private:
+  struct IslandPair {
+    int island = Islands::kNone;
+    const FoundPair* pair = nullptr;
+    const RememberedPair* remembered = nullptr;
+  };
+  struct PointRows {
+    FoundContact* point = nullptr;
+    int normal = 0;
+    int spin = -1;  // of its resistances to rolling (2) and spinning; -1: none
+    Vector3 tangent1, tangent2;
+  };
+
+  void solve_island(int island, Substep& substep);
+  void add_pair(const IslandPair& pair, Substep& substep);
+  void add_point(const TreeBody& a, const TreeBody& b, const FoundPair& pair, FoundContact& found,
+                 const ExpectedContact& start, double step);
+  TreeBody body_of(const Collider& collider, const Substep& substep) const;
+
+  std::vector<IslandPair> pairs_;
+  std::vector<PointRows> points_;
+  ConstraintRows rows_;
+};
+
+}  // namespace bubblesim

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "physics/solver/cone_problem.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace bubblesim {
+namespace {
+
+constexpr double kSmall = 1e-10;  // m/s, of a residual
+constexpr int kNewtonSteps = 30;
+constexpr int kHalvings = 8;
+constexpr int kSweepsAfterStall = 10;
+constexpr int kLastSweeps = 300;
+
+double bound_of(const ConeBlock& block, double normal) { return block.mu * std::max(normal, 0.0); }
+
+/// The largest eigenvalue of the part of a disc.
+double largest(const Eigen::MatrixXd& a, int row) {
+  const double half = (a(row, row) - a(row + 1, row + 1)) / 2;
+  return a(row, row) - half + std::sqrt(half * half + a(row, row + 1) * a(row, row + 1));
+}
+
+}  // namespace
+
+double ConeSolver::evaluate(const ConeProblem& problem, const Eigen::VectorXd& x) {
+  trial_.noalias() = problem.a * x;
+  trial_ -= problem.b;
+  trial_ = x - scale_.cwiseProduct(trial_);
+  residual_.resize(x.size());
+  for (const ConeBlock& block : problem.blocks) {
+    const int r = block.row;
+    const double bound = block.normal < 0 ? 0 : bound_of(block, trial_[block.normal]);
+    if (block.size == 1) {
+      const double lower = block.normal < 0 ? block.lower : -bound;
+      const double upper = block.normal < 0 ? block.upper : bound;
+      residual_[r] = (x[r] - std::clamp(trial_[r], lower, upper)) / scale_[r];
+      continue;
+    }
+    const double size = std::hypot(trial_[r], trial_[r + 1]);
+    const double part = size > bound ? bound / size : 1;
+    for (int k = r; k < r + 2; ++k) residual_[k] = (x[k] - part * trial_[k]) / scale_[k];
+  }
+  return residual_.squaredNorm();
+}
+
+/// The slope of the residual at the last point that was evaluated.
+void ConeSolver::differentiate(const ConeProblem& problem) {
+  const Eigen::MatrixXd& a = problem.a;
+  slope_.resize(a.rows(), a.cols());
+  // The slope of the trial is I - scale A.
+  const auto trial_slope = [&](int row) {
+    Eigen::RowVectorXd made = -scale_[row] * a.row(row);
+    made[row] += 1;
+    return made;
+  };
+  for (const ConeBlock& block : problem.blocks) {
+    const int r = block.row;
+    const bool loaded = block.normal >= 0 && trial_[block.normal] > 0;
+    const double bound = block.normal < 0 ? 0 : bound_of(block, trial_[block.normal]);
+    if (block.size == 1) {
+      const double lower = block.normal < 0 ? block.lower : -bound;
+      const double upper = block.normal < 0 ? block.upper : bound;
+      if (trial_[r] > lower && trial_[r] < upper) {
+        slope_.row(r) = a.row(r);
+        continue;
+      }
+      slope_.row(r).setZero();
+      slope_(r, r) = 1 / scale_[r];
+      if (loaded) {
+        slope_.row(r) -= std::copysign(block.mu, trial_[r]) / scale_[r] * trial_slope(block.normal);
+      }
+      continue;
+    }
+    const double size = std::hypot(trial_[r], trial_[r + 1]);
+    if (size <= bound) {
+      slope_.middleRows(r, 2) = a.middleRows(r, 2);
+      continue;
+    }
+    const double u[2] = {trial_[r] / size, trial_[r + 1] / size};
+    const Eigen::RowVectorXd first = trial_slope(r);
+    const Eigen::RowVectorXd second = trial_slope(r + 1);
+    const Eigen::RowVectorXd across = bound / size * (first * -u[1] + second * u[0]);
+    for (int k = 0; k < 2; ++k) {
+      slope_.row(r + k) = across * (k == 0 ? u[1] : -u[0]);
+      slope_(r + k, r + k) += 1;
+      if (loaded) slope_.row(r + k) -= block.mu * u[k] * trial_slope(block.normal);
+      slope_.row(r + k) /= scale_[r + k];
+    }
+  }
+}
+
+void ConeSolver::sweep(ConeProblem& problem) {
+  const Eigen::MatrixXd& a = problem.a;
+  Eigen::VectorXd& x = problem.x;
+  for (const ConeBlock& block : problem.blocks) {
+    const int r = block.row;
+    const double bound = block.normal < 0 ? 0 : bound_of(block, x[block.normal]);
+    if (block.size == 1) {
+      const double wanted = x[r] - (a.row(r).dot(x) - problem.b[r]) / a(r, r);
+      x[r] = block.normal < 0 ? std::clamp(wanted, block.lower, block.upper) : std::clamp(wanted, -bound, bound);
+      continue;
+    }
+    double t[2];
+    for (int k = 0; k < 2; ++k) t[k] = x[r + k] - scale_[r + k] * (a.row(r + k).dot(x) - problem.b[r + k]);
+    const double size = std::hypot(t[0], t[1]);
+    for (int k = 0; k < 2; ++k) x[r + k] = size > bound ? t[k] * (bound / size) : t[k];
+  }
+}
+
+ConeResult ConeSolver::solve(ConeProblem& problem) {
+  ConeResult result;
+  const Eigen::Index rows = problem.b.size();
+  if (rows == 0) return result;
+  scale_.resize(rows);
+  for (const ConeBlock& block : problem.blocks) {
+    const double admittance = block.size == 1 ? problem.a(block.row, block.row) : largest(problem.a, block.row);
+    scale_.segment(block.row, block.size).setConstant(1 / admittance);
+  }
+  const double enough = kSmall * kSmall * static_cast<double>(rows);
+  double merit = evaluate(problem, problem.x);
+  while (merit > enough && result.newton_steps < kNewtonSteps) {
+    ++result.newton_steps;
+    differentiate(problem);
+    before_ = problem.x;
+    step_ = slope_.partialPivLu().solve(residual_);
+    double next = std::numeric_limits<double>::infinity();
+    double part = 1;
+    for (int i = 0; i < kHalvings && step_.allFinite(); ++i, part /= 2) {
+      problem.x = before_ - part * step_;
+      next = evaluate(problem, problem.x);
+      if (next < (1 - part / 10) * merit) break;
+    }
+    if (!(next < merit)) {
+      problem.x = before_;
+      for (int i = 0; i < kSweepsAfterStall; ++i) sweep(problem);
+      result.sweeps += kSweepsAfterStall;
+      next = evaluate(problem, problem.x);
+    }
+    merit = next;
+  }
+  // Sweeps converge slowly, but where they end there is a solution.
+  for (int i = 0; i < kLastSweeps && merit > enough; ++i) {
+    sweep(problem);
+    ++result.sweeps;
+    if (i % 10 == 9) merit = evaluate(problem, problem.x);
+  }
+  result.residual = std::sqrt(merit);
+  return result;
+}
+
+}  // namespace bubblesim

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A tree of rigid links in generalised coordinates: topology, kinematics, mass matrix and its factors.
+//
+// After R. Featherstone, "Rigid Body Dynamics Algorithms", 2008: composite rigid bodies (chapter 6), recursive
+// Newton-Euler (chapter 5), and the factors L^T D L that keep the zeros of branches (section 6.5). All vectors have
+// world axes; moments and positions refer to the origin of the tree, the first link's centre of mass.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "bubblesim/math.hpp"
+#include "bubblesim/wrench.hpp"
+
+namespace bubblesim {
+
+/// How a link moves in its parent.
+enum class TreeMotion { kFree, kFixed, kTurns, kSlides, kScrews, kTwoAxes, kBall };
+
+struct TreeLink {
+  int parent = -1;  ///< a link that was added before; -1: the world
+  TreeMotion motion = TreeMotion::kFree;
+  Vector3 axis{0, 0, 1};                  ///< unit length, in the joint's frame
+  Vector3 axis2{0, 0, 1};                 ///< of kTwoAxes: fixed in the child, at the angle 0
+  double lead = 0;                        ///< m/rad, of kScrews
+  Pose in_parent;                         ///< the joint's frame in the parent, whose origin is its centre of mass
+  Pose in_child;                          ///< likewise in this link
+  double mass = 1;                        ///< kg
+  Matrix3 inertia = Matrix3::Identity();  ///< kg m^2, about the centre of mass, in the link's axes
+};
+
+/// The coordinate of a joint.
+struct TreeJointState {
+  Quaternion turn;   ///< of the child in the joint; of kFree in the world; of kTwoAxes about the first axis
+  Quaternion turn2;  ///< of kTwoAxes about the second axis
+  double slide = 0;  ///< m
+  Vector3 place;     ///< m, of kFree: the centre of mass in the world
+};
+
+/// A direction of motion: a point at r moves with `slide` + `turn` x r.
+struct TreeColumn {
+  Vector3 turn;
+  Vector3 slide;
+};
+
+class Tree {
+ public:
+  /// Adds a link; returns its number.
+  int add(const TreeLink& link);
+  void set_inertia(int link, double mass, const Matrix3& inertia);
+
+  int links() const { return static_cast<int>(links_.size()); }
+  int dofs() const { return static_cast<int>(columns_.size()); }
+  int first_dof(int link) const { return links_[index(link)].first_dof; }
+  int dof_count(int link) const { return links_[index(link)].dof_count; }
+  /// The last degree of freedom that moves a link; -1: none.
+  int last_dof(int link) const { return links_[index(link)].last_dof; }
+  /// The degree of freedom before another on the way to the world; -1: none.
+  int before(int dof) const { return before_[index(dof)]; }
+
+  /// Takes joints and rates from poses and velocities of the centres of mass, by link; what the joints do not allow is
+  /// dropped. Call place() after it.
+  void read(const std::vector<Pose>& poses, const std::vector<Twist>& velocities);
+  TreeJointState& joint(int link) { return joints_[index(link)]; }
+  Eigen::VectorXd& rates() { return rates_; }  ///< rad/s or m/s; of kFree: angular, then linear velocity in the world
+  const Eigen::VectorXd& rates() const { return rates_; }
+
+  /// Computes poses and directions of motion from the joints.
+  void place();
+  /// Computes the velocities of the links from rates.
+  void set_velocities(const Eigen::VectorXd& rates);
+  Pose pose(int link) const;
+  Twist velocity(int link) const { return {bodies_[index(link)].velocity, bodies_[index(link)].spin}; }
+  const Vector3& origin() const { return origin_; }
+  const TreeColumn& column(int dof) const { return columns_[index(dof)]; }
+
+  /// Factors the mass matrix plus `added`, kg or kg m^2 by degree of freedom, at the present place.
+  void factor(const Eigen::VectorXd& added);
+  /// Element of the mass matrix; `before` is `dof` or on its way to the world. Valid until factor() was called.
+  double& entry(int dof, int before) { return matrix_[row_[index(dof)] + depth_[index(before)]]; }
+  double entry(int dof, int before) const { return matrix_[row_[index(dof)] + depth_[index(before)]]; }
+  /// Computes the mass matrix at the present place, without factors.
+  void compute_mass();
+  /// Half the way of a solution: y = L^-T y, for the degrees of freedom from `leaf` to the world; -1: all.
+  void solve_upper(double* y, int leaf) const;
+  /// y = L^-1 y.
+  void solve_lower(double* y) const;
+  double inverse_diagonal(int dof) const { return inverse_diagonal_[index(dof)]; }
+
+  /// The generalised forces that velocities and wrenches on links (about their centres of mass) need, without those of
+  /// accelerated rates.
+  void bias(const Eigen::VectorXd& rates, const std::vector<Wrench>& wrenches, Eigen::VectorXd& forces);
+  /// Changes the rates by a substep: (M + added) du = step (forces - bias), with the bias at the mean of the rates
+  /// before and after, which makes it of second order.
+  void push(double step, const std::vector<Wrench>& wrenches, const Eigen::VectorXd& forces);
+  /// Moves the joints by the rates.
+  void move(double step);
+  double kinetic_energy() const;
+
+ private:
+  struct Placed {
+    TreeLink link;
+    int first_dof = 0;
+    int dof_count = 0;
+    int last_dof = -1;
+  };
+  struct Body {
+    Matrix3 axes = Matrix3::Identity();
+    Quaternion orientation;
+    Vector3 centre;  // from the origin
+    Vector3 anchor;  // of its joint, likewise
+    Vector3 velocity, spin;
+    Vector3 pull, turn;  // acceleration without that of the rates
+    Vector3 force, moment;
+    Matrix3 inertia = Matrix3::Zero();  // world axes, about the centre
+    // Of the link with all that it carries, about the origin:
+    double mass = 0;
+    Vector3 first;
+    Matrix3 second = Matrix3::Zero();
+  };
+
+  static std::size_t index(int number) { return static_cast<std::size_t>(number); }
+  Pose pose_of_parent(int link) const;
+  void place_columns(int link, const Pose& joint);
+  void accelerate(int link, const Eigen::VectorXd& rates);
+
+  std::vector<Placed> links_;
+  std::vector<TreeJointState> joints_;
+  std::vector<Body> bodies_;
+  std::vector<TreeColumn> columns_;
+  std::vector<int> before_;
+  std::vector<std::size_t> depth_;
+  std::vector<std::size_t> row_;
+  std::vector<double> matrix_;
+  std::vector<double> inverse_diagonal_;
+  Eigen::VectorXd rates_, bias_, change_;
+  Vector3 origin_;
+};
+
+}  // namespace bubblesim

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Worlds that select bubblesim's solver.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "scenes.hpp"
+
+namespace bubblesim::test::test_tree_worlds {
+namespace {
+
+constexpr double kGravity = 9.81;
+constexpr double kStep = 0.005;
+
+World by_trees(std::vector<ModelDescription> models) {
+  SceneDescription described = scene(std::move(models), {0, 0, -kGravity});
+  described.solver = Solver::kBubblesim;
+  return World(described, 0);
+}
+
+/// A rod of 1 m and 1 kg that hangs from the world and leans by an angle about y.
+ModelDescription pendulum(double angle, AxisDescription hinge_axis = axis(Vector3::UnitY())) {
+  LinkDescription rod = link("rod");
+  rod.centre_of_mass = {0, 0, -0.5};
+  rod.inertia_diagonal = Vector3(1.0 / 12, 1.0 / 12, 1e-3);
+  rod.pose = Pose(Vector3(), from_rpy(0, angle, 0));
+  ModelDescription made = model("Pendulum", rod);
+  made.joints.push_back(joint("revolute", {std::move(hinge_axis)}, {}, "world", "rod"));
+  return made;
+}
+
+TEST(PendulumByTrees, HasThePeriodOfTheory) {
+  constexpr double kStart = 170 * M_PI / 180;
+  World world = by_trees({pendulum(kStart)});
+  const ObjectId hinge = world.tree().find("/joint");
+  const double period = 4 * std::comp_ellint_1(std::sin(kStart / 2)) * std::sqrt(1.0 / 3 / (kGravity * 0.5));
+  std::vector<double> crossings;
+  double before = kStart;
+  for (int i = 1; crossings.size() < 21 && i * kStep < 12 * period; ++i) {
+    world.advance(kStep, kStep);
+    const double now = std::remainder(world.joints().position(hinge) + kStart, 2 * M_PI);
+    if (now * before < 0 && std::abs(now) < 1) crossings.push_back((i - now / (now - before)) * kStep);
+    before = now;
+  }
+  ASSERT_EQ(crossings.size(), 21u);
+  EXPECT_NEAR((crossings.back() - crossings.front()) / (10 * period), 1, 5e-3);
+}
+
+TEST(MotorByTrees, HoldsARodAndReportsTheTorqueOfItsWeight) {
+  AxisDescription hinge = axis(Vector3::UnitY(), MotorMode::kVelocity);
+  World world = by_trees({pendulum(-M_PI / 2, hinge)});
+  const ObjectId joint = world.tree().find("/joint");
+  world.advance(1, kStep);
+  EXPECT_NEAR(world.joints().position(joint), 0, 1e-6);
+  EXPECT_NEAR(std::abs(world.joints().motor_effort(joint)), kGravity / 2, 1e-3);
+}
+
+TEST(StopByTrees, HoldsARodAtItsLimit) {
+  AxisDescription hinge = axis(Vector3::UnitY());
+  hinge.lower = -0.3;
+  hinge.upper = 0.3;
+  World world = by_trees({pendulum(-M_PI / 2, hinge)});
+  world.advance(3, kStep);
+  EXPECT_NEAR(std::abs(world.joints().position(world.tree().find("/joint"))), 0.3, 1e-4);
+}
+
+}  // namespace
+}  // namespace bubblesim::test::test_tree_worlds
