@@ -55,7 +55,7 @@ struct Field {
   /// name, such as an interned Python string, in a table under this index.
   std::uint32_t key = 0;
   /// In ROS 2 a definition may give a default: the bytes of its numbers, or strings that end with 0 each. Empty: 0, "".
-  std::string default_value;
+  std::string default_value{};
 };
 
 struct Constant {
