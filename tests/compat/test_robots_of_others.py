@@ -81,7 +81,7 @@ def drive(env: dict[str, str], *arguments: object) -> dict[str, Any]:
             "husky",
             "/cmd_vel",
             "/odometry/filtered",
-            (0.5, 0.8),
+            (0.5, 0.4),
             ["/imu/data", "/joint_states", "/husky_velocity_controller/odom", "/navsat/fix", "/tf"],
             id="husky",
         ),

@@ -51,9 +51,21 @@ assert sim.getFloatProperty(sim.handle_scene, 'signal.y') == 0.5
 sim.setStringProperty(sim.handle_scene, 'signal.z', 'a')
 assert sim.getStringSignal('z') == sim.getStringProperty(sim.handle_scene, 'signal.z') == 'a'
 try:
-    sim.getIntProperty(sim.handle_scene, 'gravity')
+    sim.getIntProperty(sim.handle_scene, 'nothing')
 except ValueError as error:
     assert "sim.handle_scene and 'signal.NAME'" in str(error)
+else:
+    raise AssertionError('no error')
+"""
+    run_in_init(tmp_path, body)
+
+
+def test_a_vector_is_no_number(tmp_path: Path) -> None:
+    body = """
+try:
+    sim.getIntProperty(sim.handle_scene, 'gravity')
+except ValueError as error:
+    assert "the property 'gravity' is of type list" in str(error)
 else:
     raise AssertionError('no error')
 """

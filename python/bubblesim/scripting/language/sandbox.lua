@@ -292,13 +292,18 @@ function globals.require(name)
 end
 
 -- Old programs run other files beside their scene this way.
-local function include(name)
-  local text, chunk_name = find_source((match(tostring(name), "([^/\\]+)$"):gsub("%.lua$", "")))
-  local chunk, problem = load(text, chunk_name, "t", globals)
-  if not chunk then error(problem, 0) end
-  return chunk()
+local function including(function_name)
+  return function(name)
+    if type(name) ~= "string" or not utf8.len(name) then
+      fail(function_name .. ": argument 1, file: expected a string, found " .. type(name))
+    end
+    local text, chunk_name = find_source((match(name, "[^/\\]*$"):gsub("%.lua$", "")))
+    local chunk, problem = load(text, chunk_name, "t", globals)
+    if not chunk then error(problem, 0) end
+    return chunk()
+  end
 end
-sim.includeRel, sim.includeAbs = include, include
+sim.includeRel, sim.includeAbs = including("sim.includeRel"), including("sim.includeAbs")
 
 function globals.print(...)
   local strings = {}

@@ -11,6 +11,7 @@ from bubblesim._core import sensor_kind
 from bubblesim.geometry import poses, rotations
 from bubblesim.program.output import write_line
 from bubblesim.scene_state import log
+from bubblesim.scene_state.handle_error import MAX_HANDLE
 from bubblesim.scripting.api.checked_calls import value_first
 from bubblesim.scripting.api.kinds import (
     INTEGER,
@@ -238,14 +239,14 @@ class ObjectFunctions(ApiContext):
     def _without_flag(self, handle: int, relative_to: int) -> tuple[int, int]:
         """Move sim.handleflag_reljointbaseframe from the handle of the object, where old scripts add it."""
         flag = self.handleflag_reljointbaseframe
-        if handle < 0 or not handle & flag or self._tree.contains(handle):
+        if not 0 <= handle <= MAX_HANDLE or not handle & flag or self._tree.contains(handle):
             return handle, relative_to
         return handle & ~flag, relative_to | flag if relative_to >= 0 else relative_to
 
     def _joint_with_base_frame(self, relative_to: int) -> int:
         """Return the joint of a handle with sim.handleflag_reljointbaseframe; -1 for other handles."""
         flag = self.handleflag_reljointbaseframe
-        if relative_to < 0 or not relative_to & flag or self._tree.contains(relative_to):
+        if not 0 <= relative_to <= MAX_HANDLE or not relative_to & flag or self._tree.contains(relative_to):
             return -1
         return self._resolve(relative_to & ~flag)
 

@@ -26,6 +26,9 @@ Get = Callable[[Any, int], Any]  # of the module and a handle
 Set = Callable[[Any, int, Any], object]
 
 
+_NUMBERS = (int, float)
+
+
 @dataclass(frozen=True)
 class Property:
     """A property of objects."""
@@ -310,7 +313,12 @@ class PropertyFunctions(CustomDataFunctions):
 
     def _get_property(self, kind: type, target: int, name: str) -> Any:
         found = self._property(target, name)
-        return super()._get_property(kind, target, name) if found is None else found.get(self, target)
+        if found is None:
+            return super()._get_property(kind, target, name)
+        value = found.get(self, target)
+        if kind in _NUMBERS and not isinstance(value, _NUMBERS):
+            raise ValueError(f"the property '{name}' is of type {type(value).__name__}")
+        return value
 
     def _set_property(self, kind: type, target: int, name: str, value: object) -> None:
         found = self._property(target, name)
