@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Literal
 
 import pytest
 from playwright.sync_api import sync_playwright
@@ -19,6 +20,13 @@ pytestmark = pytest.mark.skipif(
     any(importlib.util.find_spec(part) is None for part in PARTS), reason="Sphinx is missing: scripts/setup --with docs"
 )
 LOADED = re.compile(r'<(?:script[^>]* src|link[^>]* rel="stylesheet"[^>]* href|img[^>]* src)="(https?:[^"]*)"')
+
+BACKGROUND = """(name) => {
+  let at = document.querySelector(name);
+  const color = (each) => getComputedStyle(each).backgroundColor;
+  while (color(at) === "rgba(0, 0, 0, 0)") at = at.parentElement;
+  return color(at).match(/[0-9]+/g).slice(0, 3).map(Number);
+}"""
 
 
 @pytest.fixture(scope="module")
@@ -69,6 +77,17 @@ def test_the_search_finds(site: Path, query: str, first: str) -> None:
         found = [link.inner_text() for link in page.locator("ul.search li > a").all()]
         browser.close()
     assert found[0] == first
+
+
+@pytest.mark.parametrize(("scheme", "is_dark"), [("light", False), ("dark", True)])
+def test_pages_have_the_colours_of_the_system(site: Path, scheme: Literal["light", "dark"], is_dark: bool) -> None:
+    with sync_playwright() as playwright:
+        browser = launch_browser(playwright)
+        page = browser.new_page(color_scheme=scheme)
+        page.goto((site / "index.html").as_uri(), timeout=TIMEOUT)
+        shown = {name: page.evaluate(BACKGROUND, name) for name in ("body", ".highlight pre")}
+        browser.close()
+    assert {name: sum(rgb) < 3 * 128 for name, rgb in shown.items()} == dict.fromkeys(shown, is_dark), shown
 
 
 def test_a_link_that_leads_nowhere_fails_the_build(tmp_path: Path) -> None:

@@ -32,6 +32,7 @@ html_theme = "furo"
 html_title = f"bubblesim {release}"
 html_static_path = ["static"]
 html_css_files = ["site.css"]
+html_js_files = ["dark.js"]
 html_copy_source = False
 html_theme_options = {"navigation_with_keys": True}
 copybutton_prompt_text = r"\$ |>>> "
