@@ -238,17 +238,22 @@ class ObjectFunctions(ApiContext):
 
     def _without_flag(self, handle: int, relative_to: int) -> tuple[int, int]:
         """Move sim.handleflag_reljointbaseframe from the handle of the object, where old scripts add it."""
-        flag = self.handleflag_reljointbaseframe
-        if not 0 <= handle <= MAX_HANDLE or not handle & flag or self._tree.contains(handle):
+        if not self._has_flag(handle):
             return handle, relative_to
+        flag = self.handleflag_reljointbaseframe
         return handle & ~flag, relative_to | flag if relative_to >= 0 else relative_to
 
     def _joint_with_base_frame(self, relative_to: int) -> int:
         """Return the joint of a handle with sim.handleflag_reljointbaseframe; -1 for other handles."""
-        flag = self.handleflag_reljointbaseframe
-        if not 0 <= relative_to <= MAX_HANDLE or not relative_to & flag or self._tree.contains(relative_to):
+        if not self._has_flag(relative_to):
             return -1
-        return self._resolve(relative_to & ~flag)
+        return self._resolve(relative_to & ~self.handleflag_reljointbaseframe)
+
+    def _has_flag(self, handle: int) -> bool:
+        """Return whether a handle has sim.handleflag_reljointbaseframe added."""
+        if not 0 <= handle <= MAX_HANDLE or not handle & self.handleflag_reljointbaseframe:
+            return False
+        return not self._tree.contains(handle)
 
     def _motion_of(self, joint: int) -> Vector:
         """Return the moving frame of a joint in the frame of its base; the identity for what is no joint that moves."""

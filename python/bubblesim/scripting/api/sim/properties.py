@@ -21,10 +21,10 @@ from bubblesim.scripting.api.kinds import (
 from bubblesim.scripting.api.sim.constants import SimConstants as Sim
 from bubblesim.scripting.api.sim.custom_data import CustomDataFunctions
 from bubblesim.scripting.api.sim.scene_objects import SceneObject
+from bubblesim.scripting.api.sim.signals import require_type
 
 Get = Callable[[Any, int], Any]  # of the module and a handle
 Set = Callable[[Any, int, Any], object]
-
 
 _NUMBERS = (int, float)
 
@@ -204,9 +204,6 @@ class PropertyFunctions(CustomDataFunctions):
 
     def setProperty(self, target: Handle, name: str, value: Any, options: Options = NO_OPTIONS) -> None:
         """Set a property of any kind."""
-        if self._property(target, name) is not None:
-            self._set_property(type(value), target, name, value)
-            return
         kind = dict if isinstance(value, dict | list | tuple) else type(value)
         self._set_property(kind, target, name, value)
 
@@ -316,8 +313,8 @@ class PropertyFunctions(CustomDataFunctions):
         if found is None:
             return super()._get_property(kind, target, name)
         value = found.get(self, target)
-        if kind in _NUMBERS and not isinstance(value, _NUMBERS):
-            raise ValueError(f"the property '{name}' is of type {type(value).__name__}")
+        if kind in _NUMBERS:
+            require_type(name, value, _NUMBERS)
         return value
 
     def _set_property(self, kind: type, target: int, name: str, value: object) -> None:

@@ -13,6 +13,12 @@ _DATA_PREFIX = "customData."
 _PREFIX = "signal."  # of the names in the newer functions: properties of the scene
 
 
+def require_type(name: str, value: object, wanted: type | tuple[type, ...]) -> None:
+    """Raise ValueError unless the value of a property is of a type."""
+    if not isinstance(value, wanted):
+        raise ValueError(f"the property '{name}' is of type {type(value).__name__}")
+
+
 class SignalFunctions(ApiContext):
     """Named values, shared by all scripts; strings, numbers and integers have separate namespaces."""
 
@@ -133,8 +139,8 @@ class SignalFunctions(ApiContext):
             return self._get(kind, self._signal(target, name))
         value = self._caller.shared.custom_data.get(key)
         wanted = {float: (int, float), str: (str, bytes), dict: (dict, list, tuple)}.get(kind, kind)
-        if value is not None and not isinstance(value, wanted):
-            raise ValueError(f"the property '{name}' is of type {type(value).__name__}")
+        if value is not None:
+            require_type(name, value, wanted)
         return value
 
     def _get_text(self, name: str) -> str | bytes | None:
