@@ -2,7 +2,6 @@
 """The controller nodes as processes: starting, handing over the wheels, and ending."""
 
 import contextlib
-import os
 import signal
 import subprocess
 import time
@@ -11,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from ros_support import REPOSITORY, RosCore, start, stop, wait_until
+from ros_support import REPOSITORY, RosCore, signal_group, start, stop, wait_until
 
 SCRIPTS = REPOSITORY / "scripts"
 TOPICS = ("leftMotorSpeed", "/rightMotorSpeed", "/sensorTrigger", "/simTime")  # with and without leading slash
@@ -32,7 +31,7 @@ def run(roscore: RosCore) -> Iterator[Run]:
     yield start_one
     for process in processes:  # all at once: ending takes time
         with contextlib.suppress(ProcessLookupError):
-            os.killpg(process.pid, signal.SIGINT)
+            signal_group(process, signal.SIGINT)
     for process in processes:
         stop(process)
 

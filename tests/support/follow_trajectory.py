@@ -9,6 +9,7 @@ joints, or null.
 
 import json
 import sys
+import time
 
 import actionlib
 import rospy
@@ -24,13 +25,15 @@ def main() -> None:
     states: list[JointState] = []
     rospy.Subscriber("/joint_states", JointState, states.append, queue_size=1000)
     client = actionlib.SimpleActionClient(f"{controller}/follow_joint_trajectory", FollowJointTrajectoryAction)
+    while not rospy.get_time():  # before the first message of /clock it is 0: a timeout would be over with that message
+        time.sleep(0.01)
     assert client.wait_for_server(rospy.Duration(60))
     goal = FollowJointTrajectoryGoal()
     goal.trajectory.joint_names = wanted["names"]
     goal.trajectory.header.stamp = rospy.Time(wanted.get("stamp") or 0)
-    for time, positions, velocities in wanted["points"]:
+    for after, positions, velocities in wanted["points"]:
         point = JointTrajectoryPoint(positions=positions, velocities=velocities or [])
-        point.time_from_start = rospy.Duration(time)
+        point.time_from_start = rospy.Duration(after)
         goal.trajectory.points.append(point)
     if wanted.get("path"):
         goal.path_tolerance = [JointTolerance(name=name, position=wanted["path"]) for name in wanted["names"]]

@@ -103,13 +103,23 @@ def start(command: list[str], env: dict[str, str], **options: object) -> "subpro
     )
 
 
+def signal_group(process: "subprocess.Popen[str]", number: int) -> None:
+    """Send a signal to a process of start() and everything that it started.
+
+    :raises ProcessLookupError: if nothing is left. Another process may have its number then.
+    """
+    if process.returncode is not None and Path(f"/proc/{process.pid}").exists():
+        raise ProcessLookupError
+    os.killpg(process.pid, number)
+
+
 def stop(process: "subprocess.Popen[str]", timeout: float = 10.0) -> None:
     """End a process of start() and everything that it started; kill it after `timeout` seconds."""
     if process.poll() is None:
         assert os.getpgid(process.pid) == process.pid, "only start() makes a group to end"
     for number in (signal.SIGINT, signal.SIGKILL):
         try:
-            os.killpg(process.pid, number)
+            signal_group(process, number)
             process.wait(timeout=timeout)
         except (ProcessLookupError, subprocess.TimeoutExpired):
             continue

@@ -127,14 +127,17 @@ def test_the_whole_address_is_printed_to_a_terminal(tmp_path: Path) -> None:
 def test_servers_that_begin_together_have_ports_of_their_own(tmp_path: Path) -> None:
     command = ["bubblesim", "view", "--remote", str(free_port())]
     logs = [tmp_path / f"{number}.txt" for number in range(6)]
+    servers = []
     with ExitStack() as ends:
         for log in logs:
             with log.open("w") as output:
-                ends.callback(stop, start(command, dict(os.environ), stderr=output))
-        wait_until(lambda: all(log.read_text().endswith("\n") for log in logs), "all servers", timeout=TIMEOUT / 1000)
+                servers.append(start(command, dict(os.environ), stderr=output))
+                ends.callback(stop, servers[-1])
+        wait_until(lambda: all("the window is at" in log.read_text() for log in logs), "all", timeout=TIMEOUT / 1000)
+        assert [server.poll() for server in servers] == [None] * len(servers), [log.read_text() for log in logs]
     found = [re.findall(r"the window is at http://127.0.0.1:(\d+)/", log.read_text()) for log in logs]
     assert all(len(ports) == 1 for ports in found), found
-    assert len({ports[0] for ports in found}) == len(logs)
+    assert len({ports[0] for ports in found}) == len(logs), [log.read_text() for log in logs]
 
 
 def test_a_window_that_only_looks_changes_nothing(tmp_path: Path, show: Callable[..., Window]) -> None:

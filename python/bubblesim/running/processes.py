@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 import contextlib
-import os
 import signal
 import subprocess
 from pathlib import Path
 from types import TracebackType
+
+from bubblesim.program.groups import signal_group
 
 _FIRST_SIGNAL = signal.SIGINT
 # s to wait after each signal; roscore itself waits 15 s for its master, which would survive if roscore is killed.
@@ -64,7 +65,7 @@ class Program:
         """Send the first signal of `stop`, without waiting."""
         self._end_requested = self._stopped = True
         with contextlib.suppress(ProcessLookupError):
-            os.killpg(self._process.pid, _FIRST_SIGNAL)
+            signal_group(self._process, _FIRST_SIGNAL)
 
     def stop(self) -> None:
         """End the whole process group: SIGINT, then SIGTERM, then SIGKILL."""
@@ -73,13 +74,13 @@ class Program:
         for number, timeout in _TIMEOUTS.items():
             try:
                 if number != _FIRST_SIGNAL:
-                    os.killpg(self._process.pid, number)
+                    signal_group(self._process, number)
                 self._process.wait(timeout)
                 break
             except (ProcessLookupError, subprocess.TimeoutExpired):
                 continue
         with contextlib.suppress(ProcessLookupError):
-            os.killpg(self._process.pid, signal.SIGKILL)  # remaining processes of the group
+            signal_group(self._process, signal.SIGKILL)  # remaining processes of the group
 
 
 class Programs:

@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 import contextlib
-import os
 import signal
 import subprocess
 import time
 from collections.abc import Sequence
+
+from bubblesim.program.groups import signal_group
 
 Program = subprocess.Popen[bytes]
 
@@ -29,13 +30,13 @@ def end_programs(programs: Sequence[Program]) -> None:
 
 def _signal(program: Program, number: signal.Signals) -> None:
     with contextlib.suppress(ProcessLookupError):  # the group does not exist any more
-        os.killpg(program.pid, number)
+        signal_group(program, number)
 
 
 def _is_running(program: Program) -> bool:
     program.poll()  # reap it, otherwise it counts as running
     try:
-        os.killpg(program.pid, 0)
+        signal_group(program, 0)
     except ProcessLookupError:
         return False
     return True
