@@ -2,6 +2,7 @@
 """The process of ros_peer.Peer: reads commands as JSON lines, writes messages as JSON lines."""
 
 import base64
+import contextlib
 import json
 import sys
 import threading
@@ -73,4 +74,5 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    with contextlib.suppress(KeyboardInterrupt):
+        main()
