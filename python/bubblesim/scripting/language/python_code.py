@@ -25,7 +25,8 @@ class _Self(SimpleNamespace):
 
     def __getattr__(self, name: str) -> Any:
         near = did_you_mean([f"self.{known}" for known in difflib.get_close_matches(name, list(vars(self)), n=2)])
-        raise AttributeError(f"self.{name} is not set in this script{near}")
+        # Without a name, Python 3.12 and later set it and add a suggestion of their own.
+        raise AttributeError(f"self.{name} is not set in this script{near}", name="")
 
 
 class PythonCode:
