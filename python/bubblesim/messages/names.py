@@ -41,3 +41,11 @@ def nearest_names(name: str, known: list[str]) -> list[str]:
 def did_you_mean(candidates: list[str]) -> str:
     """Return the end of an error message; empty if there are no candidates."""
     return f"; did you mean {' or '.join(candidates)}?" if candidates else ""
+
+
+def unknown_attribute(message: str) -> AttributeError:
+    """Return the error of a __getattr__ whose message has a suggestion of ours.
+
+    To an error without a name, Python adds that of the attribute, and its tracebacks, from 3.12 on, a suggestion.
+    """
+    return AttributeError(message, name="")

@@ -14,6 +14,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, TypeVar, cast
 
+from bubblesim.messages.names import unknown_attribute
 from bubblesim.scripting.api.checked_calls import checked, kind_of, signature_of
 from bubblesim.scripting.api.kinds import Kind
 from bubblesim.scripting.api.missing_names import explain
@@ -105,7 +106,7 @@ def _other_names(name: str, module: type) -> Callable[[object, str], Any]:
     def resolve(self: Any, wanted: str) -> Any:
         present = present_name(name, wanted)
         if present is None or not hasattr(module, present):
-            raise AttributeError(explain(name, wanted, {name: module, **MODULES}))
+            raise unknown_attribute(explain(name, wanted, {name: module, **MODULES}))
         note_old_name(self._caller, f"{name}.{wanted}", f"{name}.{present}")
         return getattr(self, present)
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from types import CodeType, ModuleType, SimpleNamespace
 from typing import Any
 
-from bubblesim.messages.names import did_you_mean
+from bubblesim.messages.names import did_you_mean, unknown_attribute
 from bubblesim.scripting.language import script_output
 from bubblesim.scripting.language.script_output import Source
 from bubblesim.scripting.language.source import ScriptSourceError, find_file, read_text
@@ -25,8 +25,7 @@ class _Self(SimpleNamespace):
 
     def __getattr__(self, name: str) -> Any:
         near = did_you_mean([f"self.{known}" for known in difflib.get_close_matches(name, list(vars(self)), n=2)])
-        # Without a name, Python 3.12 and later set it and add a suggestion of their own.
-        raise AttributeError(f"self.{name} is not set in this script{near}", name="")
+        raise unknown_attribute(f"self.{name} is not set in this script{near}")
 
 
 class PythonCode:

@@ -7,6 +7,7 @@ import contextlib
 from collections.abc import Iterator
 from typing import Any
 
+from bubblesim.messages.names import unknown_attribute
 from bubblesim.scripting.api.functions import script_module
 from bubblesim.scripting.api.kinds import Integers, Numbers
 from bubblesim.scripting.api.ompl.spaces import Space
@@ -25,7 +26,7 @@ class Names(dict[str, Any]):
         """Return a constant."""
         if name in self:
             return self[name]
-        raise AttributeError(f"there is no {name}; there are {', '.join(self)}")
+        raise unknown_attribute(f"there is no {name}; there are {', '.join(self)}")
 
 
 @script_module("simOMPL")
