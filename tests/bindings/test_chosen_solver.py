@@ -11,14 +11,12 @@ import pytest
 import bubblesim
 from ros_support import REPOSITORY
 
-NAMESPACE = 'xmlns:bubblesim="https://bubblesim"'
 
-
-def write_world(file: Path, solver: str, models: str, step: float = 0.005, gravity: float = -9.81) -> Path:
+def write_world(file: Path, solver: str, models: str, step: float = 0.005) -> Path:
     file.write_text(f"""\
-<sdf version="1.9" {NAMESPACE}>
+<sdf version="1.9" xmlns:bubblesim="https://bubblesim">
   <world name="w">
-    <gravity>0 0 {gravity}</gravity>
+    <gravity>0 0 -9.81</gravity>
     <physics type="ode">
       <max_step_size>{step}</max_step_size>
       <bubblesim:solver>{solver}</bubblesim:solver>

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from ros_support import REPOSITORY, RosCore, signal_group, start, stop, wait_until
+from bubblesim.program.groups import signal_group
+from ros_support import REPOSITORY, RosCore, start, stop, wait_until
 
 SCRIPTS = REPOSITORY / "scripts"
 TOPICS = ("leftMotorSpeed", "/rightMotorSpeed", "/sensorTrigger", "/simTime")  # with and without leading slash

@@ -305,8 +305,7 @@ def test_junk_is_logged_in_a_few_lines(sim: Node) -> None:
 def test_any_caller_can_shut_a_node_down(core: RosCore, tmp_path: Path) -> None:
     """As `rosnode kill` does: roscpp does not check who calls."""
     with Node("sim", core.env, tmp_path) as running:
-        # It is listed before it has loaded Python: a busy machine may take longer for that than a node may for its end.
-        wait_until(lambda: f"/{running.name}/get_object_state" in core.state()["services"], "its services")
+        running.wait_until_ready(core, f"/{running.name}")
         assert running.api.shutdown("/other", "for no reason")[0] == 1
         assert running.process.wait(DEADLINE) == 0
 

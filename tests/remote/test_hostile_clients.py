@@ -14,6 +14,7 @@ import zmq
 
 import bubblesim
 from node_support import write
+from process_support import status
 from remote_support import RemoteNode, refusal
 from ros_support import DEADLINE, wait_until
 
@@ -29,12 +30,6 @@ def call(client: "zmq.Socket[bytes]", function: str, *arguments: object, uuid: s
     """Return the reply to a request."""
     client.send(cbor2.dumps({"func": function, "args": list(arguments), "uuid": uuid}))
     return cbor2.loads(client.recv())
-
-
-def status(node: RemoteNode, name: str) -> int:
-    """Return a number of the node from /proc: VmRSS (KiB), Threads."""
-    lines = Path(f"/proc/{node.process.pid}/status").read_text().splitlines()
-    return next(int(line.split()[1]) for line in lines if line.startswith(f"{name}:"))
 
 
 def read_until(peer: socket.socket, text: bytes) -> None:
@@ -137,7 +132,7 @@ def test_signals_and_custom_data_have_a_limit(node: RemoteNode) -> None:
     )
     for _ in range(60):
         refusal(sim.setNamedStringParam, "name", "x" * 5_000_000)
-    assert status(node, "VmRSS") < 700_000
+    assert status(node.process.pid, "VmRSS") < 700_000
 
 
 @pytest.mark.parametrize("seconds", [float("inf"), float("nan"), -1.0, 1e10])
@@ -156,7 +151,7 @@ def test_a_wait_of_simulated_time_is_finite(node: RemoteNode, seconds: float) ->
 
 
 def test_waits_for_wall_time_need_no_thread_each_and_end_in_their_order(node: RemoteNode) -> None:
-    before = status(node, "Threads")
+    before = status(node.process.pid, "Threads")
     long = [node.raw(zmq.DEALER) for _ in range(100)]
     for number, peer in enumerate(long):
         message = {"func": "sim.wait", "args": [1000.0, False], "uuid": f"long {number}"}
@@ -170,7 +165,7 @@ def test_waits_for_wall_time_need_no_thread_each_and_end_in_their_order(node: Re
     assert time.monotonic() - start >= 0.3
     assert cbor2.loads(short.recv_multipart()[-1]) == {"ret": [0.0]}
     assert time.monotonic() - start >= 0.6
-    assert status(node, "Threads") <= before + 1
+    assert status(node.process.pid, "Threads") <= before + 1
     for peer in (*long, short, shorter):
         peer.close()
 
@@ -229,7 +224,7 @@ def test_frames_are_for_those_whom_the_server_let_in(node: RemoteNode) -> None:
 def test_replies_that_are_not_read_fill_no_memory(node: RemoteNode) -> None:
     large = 16  # MiB
     assert call(node.raw(), "sim.setStringSignal", "large", bytes(large << 20))["ret"] == []
-    before = status(node, "VmRSS")
+    before = status(node.process.pid, "VmRSS")
     greedy = [zmq.Context.instance().socket(zmq.DEALER) for _ in range(4)]
     for peer in greedy:
         peer.setsockopt(zmq.LINGER, 0)
@@ -240,7 +235,7 @@ def test_replies_that_are_not_read_fill_no_memory(node: RemoteNode) -> None:
             peer.send_multipart([b"", cbor2.dumps(request)])
     time.sleep(2.0)
     assert call(node.raw(), "sim.getSimulationTime", uuid="modest")["ret"] == [0.0]
-    grown = (status(node, "VmRSS") - before) / 1024
+    grown = (status(node.process.pid, "VmRSS") - before) / 1024
     assert grown < len(greedy) * 4 * large, f"{grown} MiB"
     for peer in greedy:
         peer.close()

@@ -12,6 +12,7 @@ import cbor2
 import pytest
 
 from node_support import run_sim, write
+from process_support import open_files
 from remote_support import RemoteNode
 from ros_support import DEADLINE, wait_until
 
@@ -81,8 +82,7 @@ MOMENTS = ["idle", "call", "large call", "step", "wait", "callback"]
 def test_a_client_killed_at_any_moment_releases_the_simulation(node: RemoteNode, tmp_path: Path, state: str) -> None:
     program = write(tmp_path / "client.py", KILLED)
     sim = node.sim()
-    files = Path(f"/proc/{node.process.pid}/fd")
-    before = len(list(files.iterdir()))
+    before = open_files(node.process.pid)
     for number, moment in enumerate(MOMENTS):
         command = [sys.executable, str(program), str(node.port), state, moment]
         with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
@@ -96,7 +96,7 @@ def test_a_client_killed_at_any_moment_releases_the_simulation(node: RemoteNode,
         then = sim.getSimulationTime()
         wait_until(lambda then=then: sim.getSimulationTime() > then + 0.2, f"the simulation to run on after a {moment}")
         sim.stopSimulation()
-    wait_until(lambda: len(list(files.iterdir())) <= before, "the end of the connections")
+    wait_until(lambda: open_files(node.process.pid) <= before, "the end of the connections")
 
 
 def test_a_client_that_is_silent_for_its_timeout_is_released(node: RemoteNode) -> None:

@@ -2,18 +2,17 @@
 """Subscribers that stop, or connect and disconnect."""
 
 import os
-import re
 import signal
 import socket
 import struct
 import time
 import xmlrpc.client
-from pathlib import Path
 from typing import Any
 
 import pytest
 
 from bridge_probe import Probe
+from process_support import open_files, status
 from ros_support import DEADLINE, RosCore, wait_until
 
 NAME = "/sim_ros_interface"
@@ -26,14 +25,7 @@ MASTER_CONNECTIONS = 2  # roscpp may keep these open between calls; a leak would
 
 
 def resident_megabytes(probe: Probe) -> float:
-    status = Path(f"/proc/{probe.process.pid}/status").read_text()
-    found = re.search(r"VmRSS:\s+(\d+) kB", status)
-    assert found
-    return int(found[1]) / 1000
-
-
-def open_descriptors(probe: Probe) -> int:
-    return len(list(Path(f"/proc/{probe.process.pid}/fd").iterdir()))
+    return status(probe.process.pid, "VmRSS") / 1000
 
 
 def flood(probe: Probe, publisher: str, live: Probe, subscriber: str, count: int) -> None:
@@ -93,7 +85,7 @@ def test_subscribers_that_come_and_die_leave_no_descriptors(roscore: RosCore) ->
         wait_until(lambda: NAME in roscore.state()["publishers"].get("/big", []), "the publisher")
         connect_as_subscriber(roscore, "/big").close()
         probe.wait_for(lambda: probe.ask("wants", publisher) == "no", "the first to be gone")
-        baseline = open_descriptors(probe)
+        baseline = open_files(probe.process.pid)
         for _ in range(CYCLES):
             connection = connect_as_subscriber(roscore, "/big")
             probe.ask("flood", publisher, MEGABYTE, 1)
@@ -103,7 +95,7 @@ def test_subscribers_that_come_and_die_leave_no_descriptors(roscore: RosCore) ->
         # roscpp handles 200 closed connections one by one, which takes a while on a busy machine.
         probe.wait_for(lambda: probe.ask("wants", publisher) == "no", "the last to be gone", timeout=60.0)
         wait_until(
-            lambda: open_descriptors(probe) <= baseline + MASTER_CONNECTIONS,
+            lambda: open_files(probe.process.pid) <= baseline + MASTER_CONNECTIONS,
             "the descriptors to be closed",
             timeout=60.0,
         )

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from node_support import NAME, Node, run_script, without_slowness, write
+from process_support import open_files
 from remote_control import Run, wait_until_sent
 from ros_support import RosCore, free_port, wait_until
 
@@ -24,10 +25,6 @@ def stands_still(node: Node) -> bool:
     before = count(node, "pass")
     time.sleep(0.3)
     return count(node, "pass") == before
-
-
-def descriptors(node: Node) -> int:
-    return len(list(Path(f"/proc/{node.process.pid}/fd").iterdir()))
 
 
 def test_restarts_set_up_sockets_and_topics_again_and_leak_no_descriptors(run: Run, roscore: RosCore) -> None:
@@ -49,7 +46,7 @@ def test_restarts_set_up_sockets_and_topics_again_and_leak_no_descriptors(run: R
     node, remote = run(code, "--paused", subscribe=["/of_the_script=Float32"])
     assert node.output.count("init") == 0
     wait_until_sent(roscore.env, "/rosout")  # roscore's connection counts
-    baseline = descriptors(node)
+    baseline = open_files(node.process.pid)
     for starts in range(1, RESTARTS + 1):
         received = count(node, "received"), len(remote.received("/of_the_script"))
         remote.press("start")
@@ -62,7 +59,9 @@ def test_restarts_set_up_sockets_and_topics_again_and_leak_no_descriptors(run: R
         remote.press("stop")
         wait_until(lambda starts=starts: count(node, "cleanup") == starts, "the script to end")
         wait_until(lambda: "/of_the_script" not in roscore.state()["publishers"], "its topics to be gone")
-        wait_until(lambda: descriptors(node) <= baseline + MASTER_CONNECTIONS, "the descriptors to be closed")
+        wait_until(
+            lambda: open_files(node.process.pid) <= baseline + MASTER_CONNECTIONS, "the descriptors to be closed"
+        )
     assert "x: 5.0" not in roscore.run("rosservice", "call", f"{NAME}/get_object_state", "object: /Ball")
     assert re.findall("^(?:init|cleanup).*", node.output, re.MULTILINE) == ["init 0.0 17 None", "cleanup 22"] * RESTARTS
     assert "error" not in node.output
@@ -89,7 +88,7 @@ def test_a_server_in_a_thread_is_back_on_its_port_after_each_start(run: Run, ros
     """
     node, remote = run(code, "--paused")
     wait_until_sent(roscore.env, "/rosout")  # roscore's connection counts
-    baseline = descriptors(node)
+    baseline = open_files(node.process.pid)
     for starts in range(1, RESTARTS + 1):
         remote.press("start")
         wait_until(lambda starts=starts: count(node, "listens") == starts, "the server")
@@ -105,7 +104,7 @@ def test_a_server_in_a_thread_is_back_on_its_port_after_each_start(run: Run, ros
             remote.press("stop")
             wait_until(lambda starts=starts: count(node, "cleanup") == starts, "the script to end")
             assert client.recv(1) == b""
-    wait_until(lambda: descriptors(node) <= baseline + MASTER_CONNECTIONS, "the descriptors to be closed")
+    wait_until(lambda: open_files(node.process.pid) <= baseline + MASTER_CONNECTIONS, "the descriptors to be closed")
     assert "error" not in node.output
     assert "warning" not in without_slowness(node.output)
     assert node.end() == 0

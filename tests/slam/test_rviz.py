@@ -2,7 +2,6 @@
 """RViz with config/pioneer.rviz, on a virtual display, shows the Pioneer, all its sensor data, and its map."""
 
 import subprocess
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -56,16 +55,19 @@ def test_rviz_shows_robot_scan_cloud_map_and_image(display: Display, roscore: Ro
         command = ["roslaunch", "bubblesim", "pioneer_slam.launch", "rviz:=true"]
         launched = start(command, display.env, stdout=output, stderr=subprocess.STDOUT)
 
-    def not_shown() -> list[str]:
+    left: list[str] = []
+
+    def complete() -> bool:
         picture = display.screenshot()
         Image.fromarray(picture).save(tmp_path / "rviz.png")
-        return missing(picture)
+        left[:] = missing(picture)
+        return not left
+
+    def what_is_left() -> str:
+        return f"RViz to show {left}, see {tmp_path}/rviz.png; nodes: {roscore.nodes()}; {log.read_text()[-2000:]}"
 
     try:
         wait_until(lambda: "/rviz" in roscore.nodes(), "RViz", TIMEOUT)
-        end = time.monotonic() + TIMEOUT
-        while (left := not_shown()) and time.monotonic() < end:
-            time.sleep(0.1)
-        assert not left, f"see {tmp_path}/rviz.png; nodes: {roscore.nodes()}; {log.read_text()[-2000:]}"
+        wait_until(complete, what_is_left, TIMEOUT)
     finally:
         stop_launch(launched)

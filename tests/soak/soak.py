@@ -27,6 +27,7 @@ from coppeliasim_zmqremoteapi_client import RemoteAPIClient
 
 from node_support import Node, run_sim
 from page_client import page_client
+from process_support import open_files, status
 from ros2_peer import LIBRARY, PEERS, Domain, Ros2Peer
 from ros_peer import Peer
 from ros_support import REPOSITORY, RosCore, free_port, wait_until
@@ -54,13 +55,15 @@ class Sample:
 class Subject:
     """The node that lives through all rounds, and where its clients find it."""
 
-    def __init__(self, folder: Path, core: RosCore, domain: Domain | None) -> None:
-        """Start it."""
-        self.folder, self.core, self.domain = folder, core, domain
+    def __init__(self, folder: Path, core: RosCore) -> None:
+        """Start it, for ROS 2 as well if that is built."""
+        self.folder, self.core = folder, core
+        self.domain = Domain() if LIBRARY.exists() else None  # of this process, until it ends
         self.remote, self.web = free_port(), free_port()
-        if domain is not None:
-            core.env["ROS_DOMAIN_ID"] = str(domain.number)
-        options = ["--ros=both"] if domain is not None else []
+        options = []
+        if self.domain is not None:
+            core.env["ROS_DOMAIN_ID"] = str(self.domain.number)
+            options.append("--ros=both")
         self.node = Node(
             core.env | TOKEN, folder / "node.txt", "tricycle", *options, f"--remote={self.remote}", f"--web={self.web}"
         )
@@ -69,14 +72,12 @@ class Subject:
 
     def sample(self) -> Sample:
         """Measure it."""
-        folder = Path(f"/proc/{self.node.process.pid}")
+        pid = self.node.process.pid
         try:
-            status = dict(line.split(":", 1) for line in (folder / "status").read_text().splitlines())
-            files = len(list((folder / "fd").iterdir()))
-        except OSError:
+            memory, files, threads = status(pid, "VmRSS") / 1e3, open_files(pid), status(pid, "Threads")
+        except (OSError, StopIteration):
             raise SoakError(f"the node has ended:\n{self.node.output[-3000:]}") from None
-        hours = (time.monotonic() - self.start) / 3600.0
-        return Sample(hours, float(status["VmRSS"].split()[0]) / 1e3, files, int(status["Threads"]))
+        return Sample((time.monotonic() - self.start) / 3600.0, memory, files, threads)
 
 
 def call_from_outside(subject: Subject) -> None:
@@ -162,9 +163,8 @@ def soak(hours: float, folder: Path) -> list[Sample]:
     """Run rounds until the time is over, one at least; print and return the samples."""
     scenes = sorted(file.stem for file in (REPOSITORY / "scenes").glob("*.sdf"))
     samples = []
-    domain = Domain() if LIBRARY.exists() else None
     with RosCore(folder / "roslog") as core:
-        subject = Subject(folder, core, domain)
+        subject = Subject(folder, core)
         with subject.node:
             print("   hours  memory MB  files  threads  scene beside")
             for scene in itertools.cycle(scenes):
@@ -177,8 +177,6 @@ def soak(hours: float, folder: Path) -> list[Sample]:
                     break
             if (code := subject.node.end()) != 0:
                 raise SoakError(f"the node ended with exit code {code}:\n{subject.node.output[-3000:]}")
-    if domain is not None:
-        domain.release()
     return samples
 
 

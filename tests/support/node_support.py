@@ -127,6 +127,11 @@ class Background:
     ) -> None:
         stop(self.process)
 
+    def wait_until_ready(self, core: RosCore, name: str = NAME) -> None:
+        """Return when it offers services of the simulation. It is listed before it loads Python: a signal in that time
+        may kill it."""
+        wait_until(lambda: f"{name}/get_object_state" in core.state()["services"], f"the services of {name}")
+
 
 class Node(Background):
     """The node in the background; it ends with the block, and `output` holds what it wrote."""
@@ -147,11 +152,6 @@ class Node(Background):
 
     def wait_until_listed(self, core: RosCore) -> None:
         wait_until(lambda: NAME in core.nodes(), "the node to be listed")
-
-    def wait_until_ready(self, core: RosCore, name: str = NAME) -> None:
-        """Return when it offers services of the simulation. It is listed before it loads Python: a signal in that time
-        may kill it."""
-        wait_until(lambda: f"{name}/get_object_state" in core.state()["services"], f"the services of {name}")
 
     def end(self, number: int = signal.SIGINT) -> int:
         """Send a signal to the node only and return its exit code."""

@@ -15,6 +15,7 @@ from typing import Any, Self
 import aiohttp
 import cbor2
 
+from process_support import open_files
 from ros_support import free_port, start, stop, wait_until
 from web_support import TIMEOUT, TOKEN
 
@@ -59,7 +60,7 @@ class Server:
 
     def descriptors(self) -> int:
         """Return how many descriptors are open."""
-        return len(list(Path(f"/proc/{self.process.pid}/fd").iterdir()))
+        return open_files(self.process.pid)
 
     def connect(self) -> socket.socket:
         """Open a connection, and send nothing."""

@@ -20,6 +20,8 @@ from typing import Any
 
 import pytest
 
+from bubblesim.program.groups import signal_group
+
 SUPPORT = Path(__file__).resolve().parent
 REPOSITORY = SUPPORT.parents[1]
 DEADLINE = 20.0
@@ -75,12 +77,12 @@ def alone_on_port(port: int) -> Iterator[None]:
         yield
 
 
-def wait_until(condition: Callable[[], bool], what: str, timeout: float = DEADLINE) -> None:
-    """Return as soon as `condition` holds; fail the test with `what` at the timeout."""
+def wait_until(condition: Callable[[], bool], what: str | Callable[[], str], timeout: float = DEADLINE) -> None:
+    """Return as soon as `condition` holds; fail the test with `what`, or what it returns then, at the timeout."""
     end = time.monotonic() + timeout
     while not condition():
         if time.monotonic() > end:
-            pytest.fail(f"waited {timeout:g} s in vain for {what}")
+            pytest.fail(f"waited {timeout:g} s in vain for {what if isinstance(what, str) else what()}")
         time.sleep(0.02)
 
 
@@ -101,16 +103,6 @@ def start(command: list[str], env: dict[str, str], **options: object) -> "subpro
     return subprocess.Popen(  # type: ignore[call-overload, no-any-return]
         command, env=env, text=True, start_new_session=True, restore_signals=True, **options
     )
-
-
-def signal_group(process: "subprocess.Popen[str]", number: int) -> None:
-    """Send a signal to a process of start() and everything that it started.
-
-    :raises ProcessLookupError: if nothing is left. Another process may have its number then.
-    """
-    if process.returncode is not None and Path(f"/proc/{process.pid}").exists():
-        raise ProcessLookupError
-    os.killpg(process.pid, number)
 
 
 def stop(process: "subprocess.Popen[str]", timeout: float = 10.0) -> None:

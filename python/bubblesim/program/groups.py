@@ -7,9 +7,10 @@ import os
 from pathlib import Path
 from signal import Signals
 from subprocess import Popen
+from typing import Any
 
 
-def signal_group(program: Popen[bytes], number: Signals | int) -> None:
+def signal_group(program: Popen[Any], number: Signals | int) -> None:
     """Send a signal to a program and all that it has started; 0 only asks if one of them is left.
 
     The kernel gives the number of a program that was waited for to another process once its group is empty: that

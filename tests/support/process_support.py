@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the kernel knows of a process."""
+
+from pathlib import Path
+
+
+def open_files(pid: int) -> int:
+    """Return how many descriptors are open."""
+    return len(list(Path(f"/proc/{pid}/fd").iterdir()))
+
+
+def status(pid: int, name: str) -> int:
+    """Return a number of its status, such as VmRSS (KiB) or Threads."""
+    lines = Path(f"/proc/{pid}/status").read_text().splitlines()
+    return next(int(line.split()[1]) for line in lines if line.startswith(f"{name}:"))
