@@ -44,10 +44,11 @@ def built(name: str) -> Path:
 
 
 def _worker_ports() -> Iterator[int]:
-    """Yield ports for the tests of this process: below the kernel's ephemeral ports, and distinct from those of the
-    other test processes (the workers of pytest-xdist)."""
+    """Yield ports for the tests of this process: below the kernel's ephemeral ports, above those that browsers refuse
+    (10080 is the last) and that ROS and isolated runs use, and distinct from those of the other test processes (the
+    workers of pytest-xdist)."""
     worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
-    first = 10000 + 2000 * (worker % 10)
+    first = 12000 + 2000 * (worker % 10)
     return itertools.cycle(range(first + os.getpid() % 1000, first + 2000))
 
 

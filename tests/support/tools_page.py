@@ -23,32 +23,39 @@ class ToolsPage:
 
     def __init__(self, folder: Path, scene: str, *options: object, env: Mapping[str, str] | None = None) -> None:
         self._folder = folder
-        self._ends = ExitStack()
-        self.errors: list[str] = []
-        remote_port, self.port = free_port(), free_port()
+        self._scene = [scene, *([] if env else ["--no-ros"]), *options]
         self.env = dict(env or ros_environment(free_port(), folder))
-        ros = [] if env else ["--no-ros"]
-        self.node = self._ends.enter_context(
-            Node(self.env, folder / "node.txt", scene, *ros, f"--remote={remote_port}", "--start", *options)
+        self.port = free_port()
+        self.errors: list[str] = []
+
+    def __enter__(self) -> Self:
+        with ExitStack() as ends:  # what has begun ends if the rest fails: Playwright left running fails later tests
+            self._start_node_and_server(ends)
+            self._open_page(ends)
+            self._ends = ends.pop_all()
+        return self
+
+    def _start_node_and_server(self, ends: ExitStack) -> None:
+        remote_port = free_port()
+        self.node = ends.enter_context(
+            Node(self.env, self._folder / "node.txt", *self._scene, f"--remote={remote_port}", "--start")
         )
         wait_until(lambda: "remote clients can connect" in self.node.output, "the remote API", timeout=TIMEOUT / 1000)
         command = [sys.executable, "-m", "bubblesim.web", "--remote", str(remote_port), "--port", str(self.port)]
-        log = folder / "server.txt"
+        log = self._folder / "server.txt"
         with log.open("w") as output:
-            self.server = start(command, self.env | TOKEN, cwd=folder, stdout=output, stderr=subprocess.STDOUT)
-        self._ends.callback(stop, self.server)
+            self.server = start(command, self.env | TOKEN, cwd=self._folder, stdout=output, stderr=subprocess.STDOUT)
+        ends.callback(stop, self.server)
         wait_until(lambda: "the window is at" in log.read_text(), "the server", timeout=TIMEOUT / 1000)
 
-    def __enter__(self) -> Self:
-        playwright = self._ends.enter_context(sync_playwright())
-        browser = launch_browser(playwright)
-        self._ends.callback(browser.close)
+    def _open_page(self, ends: ExitStack) -> None:
+        browser = launch_browser(ends.enter_context(sync_playwright()))
+        ends.callback(browser.close)
         self.page = new_page(browser, 1400, 900)
         self.page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
         self.page.goto(f"http://127.0.0.1:{self.port}/#token=t")
         self.wait_for("window.bubblesim?.scene.objects.size > 0")
-        return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
