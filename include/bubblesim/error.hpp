@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace bubblesim {
@@ -22,6 +23,9 @@ struct NoSuchObject : InvalidInput {
 struct WrongObject : InvalidInput {
   using InvalidInput::InvalidInput;
 };
+
+/// Returns the noun with its indefinite article, for messages: "a lidar", "an IMU".
+std::string with_article(std::string_view noun);
 
 /// One error in a scene file, or one warning.
 struct Problem {

@@ -67,7 +67,7 @@ assert "| `rate` | number | rad/s | about the sensor's z axis |" in page()
 try:
     _core.read_imu(simulation, simulation.object("/Turn").handle)
 except bubblesim.WrongObject as error:
-    assert str(error) == "/Turn is a rate-of-turn sensor, not a IMU", error
+    assert str(error) == "/Turn is a rate-of-turn sensor, not an IMU", error
 else:
     raise AssertionError("it is not an IMU")
 print("done")

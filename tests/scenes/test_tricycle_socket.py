@@ -21,7 +21,7 @@ from ros_support import DEADLINE, REPOSITORY, free_port, start, stop, wait_until
 
 ANSWER = re.compile(r"\d+\.\d{3};\d+\.\d{2}")
 MOST_CLIENTS = 32
-TELL_TARGETS = """
+PRINT_TARGETS = """
 sense = sysCall_sensing
 def sysCall_sensing():
     sense()
@@ -188,7 +188,7 @@ def ask_once(port: int) -> str:
 
 
 def test_junk_leaves_the_last_good_command_in_force(tmp_path: Path) -> None:
-    server = Server(tmp_path, more=TELL_TARGETS)
+    server = Server(tmp_path, more=PRINT_TARGETS)
     with server.node:
         wait_until(lambda: "targets 0.0 0.0" in server.node.output, "a step without a command")
         client = Client(server.port)
@@ -233,7 +233,7 @@ def client_program(port: int) -> list[str]:
 
 
 def test_the_client_drives_until_it_is_interrupted_and_stops_the_tricycle(tmp_path: Path) -> None:
-    server = Server(tmp_path, "--speed", "20", more=TELL_TARGETS)
+    server = Server(tmp_path, "--speed", "20", more=PRINT_TARGETS)
     with server.node:
         log = tmp_path / "client"
         with log.open("w") as output:

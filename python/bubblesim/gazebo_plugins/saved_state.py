@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The state of plugins in saved states of a simulation: the values of their attributes, and of objects in these.
 
-All attributes are saved whose values are numbers, strings, arrays, random generators, and containers and objects of
-this package of such. Others, such as topics and devices, are not: they have no state, or save it themselves.
+Saved are attributes whose values are numbers, strings, arrays or random generators, or containers or objects of this
+package that hold such values. Others, such as topics and devices, are not: they have no state, or save it themselves.
 """
 
 from __future__ import annotations

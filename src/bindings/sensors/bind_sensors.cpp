@@ -27,8 +27,8 @@ py::object reading_of_kind(const SensorDefinition& kind, const Simulation& simul
                            std::shared_ptr<const Reading> reading) {
   const Measurement& measured = reading->measurement;
   if (measured.table() == kind.reading) return to_python(std::move(reading));
-  throw WrongObject(simulation.world().tree().short_path(sensor) + " is a " + definition_of(measured).name +
-                    ", not a " + kind.name);
+  throw WrongObject(simulation.world().tree().short_path(sensor) + " is " + with_article(definition_of(measured).name) +
+                    ", not " + with_article(kind.name));
 }
 
 /// read_KIND() and measure_KIND() of a kind of sensor.

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "bubblesim/error.hpp"
 #include "bubblesim/sensor_definition.hpp"
 #include "numpy_values.hpp"
 
@@ -227,7 +228,8 @@ std::shared_ptr<const Reading> reading_of(const py::handle& object) { return of(
 
 const void* record_of(const py::handle& object, const MemberTable& table) {
   if (!is_record_of(object, table)) {
-    throw py::type_error("this is a " + std::string(Py_TYPE(object.ptr())->tp_name) + ", not a " + table.name);
+    throw py::type_error("this is " + with_article(Py_TYPE(object.ptr())->tp_name) + ", not " +
+                         with_article(table.name));
   }
   return of(object.ptr()).record;
 }

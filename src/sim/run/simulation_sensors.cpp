@@ -92,8 +92,8 @@ Simulation::SensorSlot& Simulation::slot(ObjectId sensor, const char* wanted) {
   const Object& object = world_.tree().at(sensor);
   const std::size_t index = slot_at_[SceneTree::index_of(sensor)];
   if (index < sensors_.size()) return sensors_[index];
-  throw WrongObject(world_.tree().short_path(sensor) + " is a " + std::string(kind_name(object.kind)) + ", not a " +
-                    wanted);
+  throw WrongObject(world_.tree().short_path(sensor) + " is " + with_article(kind_name(object.kind)) + ", not " +
+                    with_article(wanted));
 }
 
 std::shared_ptr<const Reading> Simulation::read(ObjectId sensor) {
@@ -115,8 +115,7 @@ void Simulation::override_image(ObjectId camera, const std::vector<std::uint8_t>
   SensorSlot& found = slot(camera, "camera");
   const auto* image = found.sensor->reading()->measurement.get_if<CameraImage>();
   if (image == nullptr) {
-    throw WrongObject(world_.tree().short_path(camera) + " is a " + std::string(sensor_kind(camera)) +
-                      ", not a camera");
+    throw WrongObject(world_.tree().short_path(camera) + " is " + with_article(sensor_kind(camera)) + ", not a camera");
   }
   const std::size_t pixels = static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height);
   const bool has_color = world_.models().sensor_description(camera).kind.get<CameraDescription>().color;
@@ -154,7 +153,7 @@ std::string_view Simulation::sensor_kind(ObjectId sensor) {
 
 void Simulation::require_proximity(ObjectId sensor) {
   if (slot(sensor, "proximity sensor").sensor->reading()->measurement.holds<ProximityReading>()) return;
-  throw WrongObject(world_.tree().short_path(sensor) + " is a " + std::string(sensor_kind(sensor)) +
+  throw WrongObject(world_.tree().short_path(sensor) + " is " + with_article(sensor_kind(sensor)) +
                     ", not a proximity sensor");
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bubblesim/any_record.hpp"
 
+#include "bubblesim/error.hpp"
+
 namespace bubblesim {
 namespace {
 
@@ -74,8 +76,8 @@ void AnyRecord::clear() noexcept {
 }
 
 void AnyRecord::refuse(const MemberTable& table) const {
-  throw std::logic_error("this is a " + (table_ == nullptr ? "record without a value" : table_->name) + ", not a " +
-                         table.name);
+  throw std::logic_error("this is " + with_article(table_ == nullptr ? "record without a value" : table_->name) +
+                         ", not " + with_article(table.name));
 }
 
 }  // namespace bubblesim

@@ -14,6 +14,11 @@ std::string joined(const std::vector<Problem>& problems) {
 
 }  // namespace
 
+std::string with_article(std::string_view noun) {
+  const bool vowel = !noun.empty() && std::string_view("aeiouAEIOU").find(noun.front()) != std::string_view::npos;
+  return (vowel ? "an " : "a ") + std::string(noun);
+}
+
 std::string Problem::text() const {
   std::string text = file;
   if (line > 0) text += ":" + std::to_string(line);

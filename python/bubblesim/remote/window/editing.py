@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from bubblesim._core import MotorMode, PointSpring, add_copy, copy_model, scene_folders
-from bubblesim.remote.window.window import MOST_REMOVED, Kept, Source, Window, WindowClient
+from bubblesim.remote.window.window import MOST_REMOVED, ModelCopy, Source, Window, WindowClient
 from bubblesim.scene_state import set_numbers
 
 _SPRING = "spring"
@@ -129,18 +129,18 @@ def _release(window: Window, client: WindowClient) -> None:
         spring.remove()
 
 
-def _keep(window: Window, model: int) -> Kept:
+def _keep(window: Window, model: int) -> ModelCopy:
     """Return what is needed to add a model again."""
     edits, world = window.edits, window.simulation.world
     text = edits.sources.get(model)
     original = edits.originals.get(model, str(world.name(model))) if text is None else None
     source = Source(text, original)
-    return Kept(
+    return ModelCopy(
         copy_model(window.simulation, model), source, edits.colours.of(world, model), edits.numbers.of(world, model)
     )
 
 
-def _add(window: Window, kept: Kept, position: Sequence[float], orientation: Sequence[float]) -> int:
+def _add(window: Window, kept: ModelCopy, position: Sequence[float], orientation: Sequence[float]) -> int:
     name = _free_name(window, kept.copy.name)
     handle: int = add_copy(window.simulation, kept.copy, name, position, orientation)
     _note_source(window, handle, kept.source)

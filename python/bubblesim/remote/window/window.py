@@ -33,7 +33,7 @@ class Source:
 
 
 @dataclass(frozen=True)
-class Kept:
+class ModelCopy:
     """A model as it was, to add it again."""
 
     copy: Any
@@ -65,7 +65,7 @@ class Window:
         self.edits.colours.changed = self._recolour
         self.edits.tree_changed = self._tree_changed
         host.shared.dummies.changed = self._tree_changed
-        self.removed: dict[int, Kept] = {}
+        self.removed: dict[int, ModelCopy] = {}
         """The last models that pages have removed, by number."""
         self._removals = 0
         self._events: deque[tuple[int, str, Any]] = deque(maxlen=_MOST_EVENTS)
@@ -74,7 +74,7 @@ class Window:
         self._recoloured: set[int] = set()
         self._has_other_tree = False
 
-    def keep_removed(self, kept: Kept) -> int:
+    def keep_removed(self, kept: ModelCopy) -> int:
         """Keep a model that is removed, and return its number; the oldest are forgotten."""
         number, self._removals = self._removals, self._removals + 1
         self.removed[number] = kept
