@@ -10,6 +10,10 @@ import pytest
 from ros_support import REPOSITORY
 
 CPP_FOLDERS = ("include", "src", "tests", "benchmarks")
+SPELLED = (
+    *("CHANGELOG.md", "CONTRIBUTING.md", "README.md", "benchmarks", "docs", "include", "launch", "meta", "msg"),
+    *("python", "scenes", "scripts", "src", "web/src"),
+)
 
 
 def check(*command: str) -> None:
@@ -29,6 +33,10 @@ def test_python_is_formatted() -> None:
 
 def test_types_hold() -> None:
     check(sys.executable, "-m", "mypy", "--strict", "python", "meta")
+
+
+def test_words_are_spelled_right() -> None:
+    check(sys.executable, "-m", "codespell_lib", *SPELLED)
 
 
 def test_cpp_is_formatted() -> None:
