@@ -120,7 +120,10 @@ RosBridge::Impl::Impl(RosBridgeOptions bridge_options)
                 topics.look_for_publishers();
                 if (options.take_report) diagnostics.publish_when_due();
               },
-              [this] { use_sim_time.restore(); }}) {
+              [this] {
+                wait_until_all_are_sent();
+                use_sim_time.restore();
+              }}) {
   if (options.on_shutdown) take_over_shutdown(options.on_shutdown);
   if (options.on_pause) {
     offer_pause_service("~pause", true);

@@ -133,6 +133,31 @@ def test_large_images_arrive_whole_at_thirty_a_second(ros2_domain: Domain, ros2_
     assert {len(image["data"]) for image in images} == {640 * 480 * 3}
 
 
+def test_what_a_script_publishes_at_its_end_arrives(ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path: Path) -> None:
+    script = """
+        def sysCall_init():
+            self.topics = [simROS2.createPublisher(f'/topic{n}', 'std_msgs/msg/Float32', 100) for n in range(4)]
+
+        def sysCall_actuation():
+            publish(-1.0)
+
+        def sysCall_cleanup():
+            for count in range(50):
+                publish(count)
+
+        def publish(number):
+            for topic in self.topics:
+                simROS2.publish(topic, {'data': number})
+    """
+    topics = [f"/topic{n}" for n in range(4)]
+    with node_with(ros2_domain, tmp_path, script) as node:
+        for topic in topics:
+            ros2_peer.next(topic, FLOAT)
+        assert node.end() == 0
+        for topic in topics:
+            wait_until(lambda topic=topic: ros2_peer.received(topic)[-1] == {"data": 49.0}, f"the last one on {topic}")
+
+
 def test_a_topic_has_one_type_in_a_node(ros2_domain: Domain, tmp_path: Path) -> None:
     script = """
         def sysCall_init():

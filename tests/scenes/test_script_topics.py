@@ -2,10 +2,12 @@
 """simROS and simROS2 in child scripts, with a real master and rostopic."""
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
 from node_support import NAME, Node, without_slowness
+from ros_peer import Peer
 from ros_support import RosCore, wait_until
 
 Script = Callable[..., Node]
@@ -279,3 +281,28 @@ def test_every_kind_of_value_arrives(script: Script, roscore: RosCore) -> None:
     span = roscore.run("rostopic", "echo", "-n", "1", "/vd").split()
     assert int(span[2]) + int(span[4]) * 1e-9 == -2.5
     assert "data: [1.0, 2.5]" in roscore.run("rostopic", "echo", "-n", "1", "/va")
+
+
+def test_what_a_script_publishes_at_its_end_arrives(script: Script, roscore: RosCore, tmp_path: Path) -> None:
+    node = script("""\
+        def sysCall_init():
+            self.topics = [simROS.advertise(f'/topic{n}', 'std_msgs/String', 100) for n in range(4)]
+        def publish(text):
+            for topic in self.topics:
+                simROS.publish(topic, {'data': text})
+        def sysCall_actuation():
+            publish('running')
+        def sysCall_cleanup():
+            for count in range(50):
+                publish(f'{count} at the end')
+        """)
+    topics = [f"/topic{n}" for n in range(4)]
+    with Peer(roscore, tmp_path / "peer") as peer:
+        for topic in topics:
+            peer.next(topic, "std_msgs/String")
+        assert node.end() == 0
+        for topic in topics:
+            wait_until(
+                lambda topic=topic: peer.received(topic)[-1]["data"] == "49 at the end",
+                f"the last message on {topic}",
+            )

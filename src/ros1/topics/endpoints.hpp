@@ -12,6 +12,7 @@
 #include <ros/serialized_message.h>
 
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -38,6 +39,7 @@ class PublisherEndpoint {
   void publish(messages::WireBuffer message);
 
   void register_at_master();
+  /// Waits until the last messages are sent.
   void unregister_from_master();
 
  private:
@@ -57,7 +59,11 @@ class PublisherEndpoint {
   ros::SubscriberCallbacksPtr callbacks_;
   ros::PublicationPtr publication_;  // set by the master thread, then announced by registered_
   std::atomic<bool> registered_{false};
+  std::atomic<std::chrono::steady_clock::time_point> last_message_{};
 };
+
+/// Waits until roscpp has sent the last messages of all publishers. On the master thread.
+void wait_until_all_are_sent();
 
 class SubscriberEndpoint {
  public:

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <stdexcept>
+#include <thread>
 
 #include "topics/endpoints.hpp"
 
@@ -16,6 +17,11 @@ namespace {
 
 using messages::MessageType;
 using messages::WireBuffer;
+using Clock = std::chrono::steady_clock;
+
+// roscpp sends on its own thread, does not report when it is done, and drops what is left of a publisher that ends.
+constexpr std::chrono::milliseconds kSending{100};
+std::atomic<Clock::time_point> last_message_of_all{};  // as roscpp's thread, it serves all publishers
 
 // roscpp rewrites the header's sequence number on its own thread, where an error would end the process.
 void check_header(const MessageType& type, const WireBuffer& message) {
@@ -78,6 +84,9 @@ void PublisherEndpoint::publish(WireBuffer message) {
 }
 
 void PublisherEndpoint::send(ros::SerializedMessage message) {
+  const Clock::time_point now = Clock::now();
+  last_message_ = now;
+  last_message_of_all = now;
   publication_->publish(message);
   ros::PollManager::instance()->getPollSet().signal();
 }
@@ -115,7 +124,11 @@ void PublisherEndpoint::register_at_master() {
 }
 
 void PublisherEndpoint::unregister_from_master() {
-  if (callbacks_) ros::TopicManager::instance()->unadvertise(topic_, callbacks_);
+  if (!callbacks_) return;
+  std::this_thread::sleep_until(last_message_.load() + kSending);
+  ros::TopicManager::instance()->unadvertise(topic_, callbacks_);
 }
+
+void wait_until_all_are_sent() { std::this_thread::sleep_until(last_message_of_all.load() + kSending); }
 
 }  // namespace bubblesim

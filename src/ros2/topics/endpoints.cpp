@@ -7,6 +7,11 @@
 #include "graph/names.hpp"
 
 namespace bubblesim::ros2 {
+namespace {
+
+const Duration kLastMessages{0, 50'000'000};  // s and ns, for subscribers that do not answer
+
+}  // namespace
 
 class PublisherEndpoint::Listener final : public dds::DataWriterListener {
  public:
@@ -34,6 +39,8 @@ void PublisherEndpoint::open(Participant& participant) {
 }
 
 void PublisherEndpoint::close() {
+  // Reliable subscribers get the last messages, also those that scripts publish in sysCall_cleanup.
+  if (writer_ && subscribers_ > 0) (**writer_).wait_for_acknowledgments(kLastMessages);
   writer_.reset();
   subscribers_ = 0;
 }
