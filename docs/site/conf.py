@@ -31,6 +31,7 @@ autodoc_default_options = {"members": True}
 html_theme = "furo"
 html_title = f"bubblesim {release}"
 html_static_path = ["static"]
+html_search_scorer = str(_HERE / "search_scorer.js")  # Sphinx looks for it in the working directory
 html_css_files = ["site.css"]
 html_js_files = ["dark.js"]
 html_copy_source = False
