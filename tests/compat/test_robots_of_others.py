@@ -108,7 +108,7 @@ def test_mobile_robots_drive_and_turn_as_their_odometry_reports(
                 assert "nan" not in topic(core, name), name
             moved = drive(env, model, commands, odometry, *speeds)
         for reported, true in (moved["distances"], moved["angles"]):
-            assert reported == pytest.approx(true, rel=0.03), moved
+            assert reported == pytest.approx(true, rel=0.05), moved
         assert moved["distances"][1] >= 1.9
 
 

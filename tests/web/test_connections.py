@@ -100,8 +100,9 @@ def test_bad_requests_fill_no_log(server: Server) -> None:
             connection.shutdown(socket.SHUT_WR)
             connection.recv(1000)
     assert server.get("/")[0] == 200
-    assert server.output.count("Error handling request") <= 10
-    assert "left out for one minute" in server.output
+    reported = server.output.count("Error handling request")
+    assert reported <= 10
+    assert ("left out for one minute" in server.output) == (reported > 0)  # aiohttp 3.11 reports none of them
 
 
 @pytest.mark.long

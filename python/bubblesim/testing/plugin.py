@@ -54,7 +54,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
 
 
-@pytest.hookimpl(hookwrapper=True)  # type: ignore[untyped-decorator]  # by pytest 7
+@pytest.hookimpl(hookwrapper=True)  # type: ignore[untyped-decorator, unused-ignore]  # by pytest 7; 8 has types
 def pytest_runtest_makereport(item: pytest.Item) -> Iterator[None]:
     """Note that a test has failed; its fixtures end later."""
     outcome: Any = yield

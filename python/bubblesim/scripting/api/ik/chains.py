@@ -6,11 +6,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from bubblesim.geometry import poses
 from bubblesim.scripting.api.ik.environment import IK, PRISMATIC, WORLD, Environment, IkObject
 
-Array = np.ndarray[Any, Any]
+Array = npt.NDArray[np.float64]
 
 
 def load_kdl() -> Any:

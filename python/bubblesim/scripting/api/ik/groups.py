@@ -146,7 +146,7 @@ class GroupFunctions(IkContext):
     def computeGroupJacobian(self, environment: int, group: int) -> tuple[list[float], list[float]]:
         """Return the Jacobian of a group, row by row, and the errors of its constraints."""
         error, jacobian, _, _ = self._solver(environment).errors(self._group(environment, group))
-        return jacobian.ravel().tolist(), error.tolist()
+        return jacobian.ravel().tolist(), error.ravel().tolist()
 
     def computeJacobian(self, environment: int, first: Any, second: Any = None, *more: Any) -> Any:
         """Return the Jacobian of a group (environment, group), row by row, with its size [columns, rows] in

@@ -81,7 +81,7 @@ class Solver:
         if self._is_precise(group, left):
             return SUCCESS, 0, precision
         limits = np.array([each.precision for each in self._enabled(group)])
-        bad = (left > limits).any(axis=0)
+        bad = np.any(left > limits, axis=0)
         if (group.flags & _RESTORE_LINEAR and bad[0]) or (group.flags & _RESTORE_ANGULAR and bad[1]):
             for handle, position in before.items():
                 self._environment.objects[handle].position = position

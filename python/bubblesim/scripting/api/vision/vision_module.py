@@ -253,7 +253,8 @@ class SimVision:
         frame and its distance, m; and with ``colours`` the bytes of their colours."""
         work = self._work(sensor)
         points = self._points(sensor, work, counts[0], counts[1])
-        flat = [float(counts[0]), float(counts[1]), *points.ravel().tolist()]
+        flat = [float(counts[0]), float(counts[1])]
+        flat += map(float, points.ravel())
         picked = b""
         if colours:
             y, x = self._places(work, counts[0], counts[1])
