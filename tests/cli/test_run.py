@@ -46,6 +46,14 @@ def test_a_roscore_and_a_controller_come_and_go_with_it_and_the_path_is_drawn(tm
     assert processes_with(f"-p {port}") == []
 
 
+def test_the_whole_path_of_a_short_run_at_full_speed_is_drawn(tmp_path: Path) -> None:
+    options = ["--roscore", "--speed", "max", "--plot", tmp_path / "path.png"]
+    run = bubblesim("run", "bubblerob", "--until", 0.5, *options, env=ros_environment(free_port(), tmp_path / "log"))
+    assert run.returncode == 0, run.stderr
+    assert "simulated time     0.4" in run.stderr
+    assert (tmp_path / "path.png").read_bytes().startswith(b"\x89PNG")
+
+
 def test_a_master_that_is_needed_and_missing_is_reported(tmp_path: Path) -> None:
     environment = ros_environment(free_port(), tmp_path)
     run = bubblesim("run", "tricycle", "--plot", tmp_path / "path.png", env=environment)

@@ -13,11 +13,14 @@ import sys
 import tempfile
 import time
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bubblesim.running.places import node_program
 from bubblesim.running.processes import Program, Programs, RunError
 from bubblesim.running.stop import Stop
+
+if TYPE_CHECKING:
+    from bubblesim.running.paused_start import PausedStart
 
 _DESCRIPTION = """\
 Runs a scene in the simulator's node until Ctrl-C or for the time given by --until. All options of the node, listed
@@ -29,6 +32,8 @@ below, are accepted after the scene's name.
   bubblesim run tricycle --isolated --web              beside other runs and users of this machine
   bubblesim run robot.xacro wheels:=4 --roscore        with an argument for xacro
   bubblesim run tricycle --roscore --controller "rosrun bubblesim tricycle_avoid.py" --until 60 --plot path.png"""
+
+_WAITING = {"--paused", "--remote"}  # options with which the simulation waits for others
 
 
 def add_parser(commands: Any) -> None:
@@ -110,22 +115,27 @@ def _run_with_programs(options: argparse.Namespace, node: list[str]) -> int:
                 return 0
             stack.enter_context(simulated_time())
         path = _Path(options.scene, options.plot) if options.plot else None
+        if path and not any(option.partition("=")[0] in _WAITING for option in options.other_options):
+            node.append("--paused")  # until the path is observed: a short run at full speed ends before
+            path.start_paused()
         others = list(programs.running)
         simulator = programs.start("simulator", *node, shown=True)
         if options.controller:
             others.append(programs.start("controller", *options.controller, shown=True))
-        _wait(simulator, others, stop)
+        _wait(simulator, others, stop, path)
     if path:
         path.draw()
     code = simulator.exit_code or 0
     return max(code, 0) if stop.requested else code  # it may have received the signal before it installed its handler
 
 
-def _wait(simulator: Program, others: list[Program], stop: Stop) -> None:
+def _wait(simulator: Program, others: list[Program], stop: Stop, path: _Path | None) -> None:
     """Wait until the simulator ends or a stop is requested; RunError if another program ends first."""
     while simulator.exit_code is None and not stop.requested:
         for program in others:
             program.check()
+        if path:
+            path.advance_start()
         time.sleep(0.05)
 
 
@@ -140,6 +150,18 @@ class _Path:
         self._file = file
         self._recording = Recording()
         self._observer = Observer(self._recording)
+        self._start: PausedStart | None = None
+
+    def start_paused(self) -> None:
+        """Prepare for a simulation that is paused until its path is observed."""
+        from bubblesim.running.paused_start import PausedStart
+
+        self._start = PausedStart(self._observer)
+
+    def advance_start(self) -> None:
+        """Let the simulation run as soon as its path is observed."""
+        if self._start:
+            self._start.advance()
 
     def draw(self) -> None:
         from bubblesim.running.picture import draw  # matplotlib loads slowly
@@ -147,8 +169,8 @@ class _Path:
         self._observer.close()
         if len(self._recording.samples) < 2:
             raise RunError(
-                f"{self._file} is not written: no robot was published on /tf and /clock. The scene may have none, or a "
-                "short run may have ended before its topics were found: --speed 10, or a later --until"
+                f"{self._file} is not written: no robot was published on /tf and /clock. Has the scene a robot that "
+                "publishes its pose, and did the simulation run?"
             )
         draw(self._scene, self._recording, self._file)
         print(f"{self._recording.summary()}\npicture            {self._file}", file=sys.stderr, flush=True)

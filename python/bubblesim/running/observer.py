@@ -23,9 +23,17 @@ class Observer:
         self._sim_time: float | None = None
         self._frames: tuple[str, str] | None = None
         rospy.init_node("bubblesim_observer", anonymous=True, disable_signals=True)
-        rospy.Subscriber("/clock", Clock, self._on_clock)
-        rospy.Subscriber("/tf", TFMessage, self._on_tf)
-        rospy.Subscriber("/front_sonar", Float32, self._on_sonar)
+        self._stamps_are_simulated = bool(rospy.get_param("/use_sim_time", False))
+        self._subscribers = [
+            rospy.Subscriber("/clock", Clock, self._on_clock),
+            rospy.Subscriber("/tf", TFMessage, self._on_tf),
+            rospy.Subscriber("/front_sonar", Float32, self._on_sonar),
+        ]
+
+    def is_connected(self) -> bool:
+        """Return whether the simulator sends what it publishes of these topics."""
+        published = {topic for topic, _type in rospy.get_published_topics()}
+        return all(each.get_num_connections() > 0 for each in self._subscribers if each.name in published)
 
     def _on_clock(self, message: Clock) -> None:
         self._sim_time = message.clock.to_sec()
@@ -37,10 +45,11 @@ class Observer:
         for transform in message.transforms:
             frames = (transform.header.frame_id, transform.child_frame_id)
             self._frames = self._frames or frames
-            if frames == self._frames and self._sim_time is not None:
+            sim_time = transform.header.stamp.to_sec() if self._stamps_are_simulated else self._sim_time
+            if frames == self._frames and sim_time is not None:
                 place, turn = transform.transform.translation, transform.transform.rotation
                 pose = Pose(place.x, place.y, place.z, heading_of(turn.x, turn.y, turn.z, turn.w))
-                self._recording.samples.append(Sample(time.monotonic(), self._sim_time, pose))
+                self._recording.samples.append(Sample(time.monotonic(), sim_time, pose))
 
     def close(self) -> None:
         """Unregister from the master before it ends."""
