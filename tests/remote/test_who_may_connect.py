@@ -126,6 +126,7 @@ def test_another_user_reaches_the_open_port_and_nothing_else(tmp_path: Path, mon
     port = free_port()
     with Node(environment, tmp_path / "log", "ball", "--no-ros", f"--remote={port}", *options) as node:
         node.wait_for_output("the window is at")
+        node.wait_for_output("remote clients can connect")
         sockets = [path for path in tmp_path.rglob("*") if stat.S_ISSOCK(path.stat().st_mode)]
         pages = list(tmp_path.glob("bubblesim/*.html"))
         assert sockets
