@@ -7,11 +7,12 @@ import contextlib
 import math
 import time
 
+import rosgraph
 import rospy
-import rosservice
 from bubblesim_msgs.srv import Step
 from std_srvs.srv import Empty
 
+from bubblesim.program.simulators import simulators
 from bubblesim.running.observer import Observer
 
 _ADVERTISING = 0.5  # s after the first step, until the master knows its topics
@@ -35,22 +36,15 @@ class PausedStart:
         """Do what is possible now, without waiting for the simulator; it may end meanwhile."""
         if self._is_done:
             return
-        with contextlib.suppress(OSError, rospy.ROSException, rospy.ServiceException, rosservice.ROSServiceException):
+        with contextlib.suppress(OSError, rospy.ROSException, rospy.ServiceException, rosgraph.MasterException):
             self._advance()
 
     def _advance(self) -> None:
         if self._simulator is None:
-            self._simulator = _find_simulator()
+            self._simulator = next(iter(simulators(rosgraph.Master(rospy.get_name()).getSystemState())), None)
         elif self._advertised_at == math.inf:
             rospy.ServiceProxy(f"{self._simulator}/step", Step)(1)
             self._advertised_at = time.monotonic() + _ADVERTISING
         elif time.monotonic() > self._advertised_at and self._observer.is_connected():
             rospy.ServiceProxy(f"{self._simulator}/unpause", Empty)()
             self._is_done = True
-
-
-def _find_simulator() -> str | None:
-    """Return the name of the simulator's node; None before it offers its services."""
-    steps = (name for name in rosservice.get_service_list() if name.endswith("/step"))
-    found = next((name for name in steps if rosservice.get_service_type(name) == Step._type), None)
-    return found and found.removesuffix("/step")
