@@ -82,7 +82,7 @@ int ScriptCounts::disabled() const {
 }
 
 Session::RunnerUse::~RunnerUse() {
-  if (node.python) node.python->end();
+  node.python->end();
   for (const auto& bridge : node.bridges) bridge->shutdown_endpoints();
   runner.finish();  // it runs in no background, so this does not throw; the bridge's threads wait for commands
   node.runner.set(nullptr);
@@ -110,7 +110,6 @@ Session::Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_fir
     simulation_->add(*ros_.back());
     bridges.push_back(bridge.get());
   }
-  if (!node.python) node.python = std::make_unique<PythonEngine>();
   PythonEngine& python = *node.python;
   python.begin(runner_, bridges);
   if (with_ros && (!options.record.empty() || !options.lockstep.empty())) {

@@ -36,12 +36,12 @@ void add_packages_of_virtual_environment() {
 
 std::atomic<bool> can_interrupt{false};
 
-/// Only interrupt() calls Python's handler of SIGINT: the program handles the signal itself.
+/// Nobody sends this signal; interrupt() makes Python believe so. Not SIGINT, which the program handles itself: Python
+/// would take it over, and give it its default action, the program's end, when the interpreter ends.
+const int kInterruption = SIGRTMAX;
+
 void install_interruption() {
-  struct sigaction own {};
-  sigaction(SIGINT, nullptr, &own);
-  py::module_::import("bubblesim.scripting.host.interruption").attr("install")();
-  sigaction(SIGINT, &own, nullptr);
+  py::module_::import("bubblesim.scripting.host.interruption").attr("install")(kInterruption);
   can_interrupt = true;
 }
 
@@ -97,7 +97,7 @@ Interpreter::~Interpreter() {
 }
 
 void interrupt() {
-  if (can_interrupt) PyErr_SetInterruptEx(SIGINT);
+  if (can_interrupt) PyErr_SetInterruptEx(kInterruption);
 }
 
 }  // namespace bubblesim::scripting

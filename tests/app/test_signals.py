@@ -3,6 +3,7 @@
 
 import re
 import signal
+import sys
 import time
 from pathlib import Path
 
@@ -96,6 +97,37 @@ def test_a_scene_that_is_being_loaded_is_given_up(tmp_path: Path, number: signal
         begin = time.monotonic()
         assert node.end(number) == -number
         assert time.monotonic() - begin < LIMIT + SLACK
+
+
+def test_a_slow_start_of_python_is_no_script_that_does_not_return(tmp_path: Path) -> None:
+    environment = tmp_path / "environment"
+    version = f"python{sys.version_info.major}.{sys.version_info.minor}"
+    packages = environment / "lib" / version / "site-packages"
+    packages.mkdir(parents=True)
+    begun = tmp_path / "begun"
+    (packages / "slow.pth").write_text(f"import time; open('{begun}', 'w'); time.sleep({LIMIT + 0.5})\n")
+    with Node(clean_environment(VIRTUAL_ENV=str(environment)), tmp_path / "log", "ball", "--no-ros") as node:
+        wait_until(begun.exists, "Python to start")
+        assert node.end() == 0
+        assert node.output == ""
+
+
+def test_a_second_ctrl_c_while_python_ends_changes_nothing(tmp_path: Path) -> None:
+    code = """
+        import builtins, os, signal
+        class Last:
+            def __del__(self, kill=os.kill, node=os.getpid(), number=signal.SIGINT, write=os.write):
+                write(1, b'deleted\\n')
+                kill(node, number)
+        def sysCall_init():
+            builtins.last = Last()  # Python deletes it when it no longer handles signals
+            print('begun')
+    """
+    script = write(tmp_path / "script.py", code)
+    with Node(clean_environment(), tmp_path / "log", "ball", "--no-ros", "--child-script", f"/Ball={script}") as node:
+        node.wait_for_output("begun")
+        assert node.end() == 0
+        assert node.output.endswith("deleted\n")
 
 
 def handles(node: Node, number: signal.Signals) -> bool:

@@ -22,9 +22,9 @@ _WAKE_UP = signal.SIGURG
 _still_needed: Callable[[], bool] = bool  # returns False
 
 
-def install() -> None:
-    """Install signal handlers that raise KeyboardInterrupt in the running script."""
-    signal.signal(signal.SIGINT, _interrupt)
+def install(interruption: int) -> None:
+    """Install signal handlers that raise KeyboardInterrupt in the running script: at its end, by this signal."""
+    signal.signal(interruption, _interrupt)
     signal.signal(_WAKE_UP, _break_off_for_stop)
 
 
