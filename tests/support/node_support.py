@@ -128,8 +128,7 @@ class Background:
         stop(self.process)
 
     def wait_until_ready(self, core: RosCore, name: str = NAME) -> None:
-        """Return when it offers services of the simulation. It is listed before it loads Python: a signal in that time
-        may kill it."""
+        """Return when it offers services of the simulation. It is listed before it loads Python."""
         wait_until(lambda: f"{name}/get_object_state" in core.state()["services"], f"the services of {name}")
 
 
