@@ -30,6 +30,7 @@ def picture(address: str) -> None:
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path="/usr/bin/chromium-headless-shell", args=FLAGS)
         page = browser.new_page(viewport={"width": 1280, "height": 720}, color_scheme="dark")
+        page.add_init_script("localStorage.setItem('first-steps', 'known')")  # the line of a first visit
         page.goto(address)
         while not page.evaluate("bubblesim.scene.models.length"):
             page.wait_for_timeout(200)

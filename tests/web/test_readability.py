@@ -11,7 +11,7 @@ pytest.importorskip("playwright")
 from PIL import Image
 from playwright.sync_api import Browser
 
-from web_support import TIMEOUT, Node, Window
+from web_support import TIMEOUT, Node, Window, new_page
 
 LEAST = 4.5
 """Contrast of strings, WCAG 2.1, success criterion 1.4.3; buttons that are disabled are exempt."""
@@ -64,7 +64,7 @@ def test_all_texts_have_enough_contrast(tmp_path: Path, browser: Browser, scheme
 def test_lines_of_the_grid_that_lead_behind_the_camera_are_drawn(tmp_path: Path, browser: Browser) -> None:
     """The scene is small: the red axis ends far behind the camera."""
     with Node(tmp_path, "ball", "--paused") as node:
-        window = Window(browser.new_page(viewport={"width": 1000, "height": 620}), node.address)
+        window = Window(new_page(browser, 1000, 620, scale=1.0), node.address)
         node.windows.append(window)
         canvas = Image.open(io.BytesIO(window.page.locator(".view canvas").screenshot(timeout=TIMEOUT)))
         reds = sum(1 for r, g, b in canvas.convert("RGB").getdata() if r > g + 40 and r > b + 40)

@@ -13,6 +13,7 @@ const SHORTCUTS = [
   ["Ctrl+D, Delete", "copy, delete the selected model"],
   ["F", "follow the selected object"],
   ["Home, 7, 1, 3", "whole scene, from above, front, right"],
+  ["?", "this list"],
 ];
 
 export async function showAbout(app) {

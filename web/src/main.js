@@ -12,6 +12,7 @@ import "./main.css";
 
 import { h } from "./dom.js";
 import { Editing } from "./editing.js";
+import { firstSteps } from "./first_steps.js";
 import { Layout } from "./layout.js";
 import { Link } from "./link.js";
 import { Notices } from "./notices.js";
@@ -57,7 +58,7 @@ link.on("scene", (info) => {
   document.title = `${info.scene} - bubblesim`;
   showState();
 });
-layout.centre.append(lost, notices.element);
+layout.centre.append(lost, notices.element, ...[firstSteps()].filter(Boolean));
 document.body.append(layout.element);
 showState();
 link.connect();

@@ -173,7 +173,7 @@ export class Toolbar {
       button("left", "Left panels", () => layout.toggle("left")),
       button("bottom", "Panels below", () => layout.toggle("bottom")),
       button("right", "Right panels", () => layout.toggle("right")),
-      button("info", "About: shortcuts and licences", () => showAbout(this.#app)),
+      button("info", "About: shortcuts and licences (?)", () => showAbout(this.#app)),
     );
   }
 
@@ -207,6 +207,7 @@ export class Toolbar {
       e: () => view.gizmo.setMode("turn"),
       q: () => view.gizmo.setMode("pull"),
       b: () => this.snap.click(),
+      "?": () => showAbout(this.#app),
       Escape: () => (view.gizmo.mode === "select" ? selection.select(null) : view.gizmo.setMode("select")),
     };
     let action = actions[event.key];
