@@ -249,3 +249,17 @@ def test_a_screenshot_is_a_picture_of_the_view(window: ToolsPage) -> None:
     with window.page.expect_download() as download:
         window.page.click("button:has-text('Take a screenshot')")
     assert Path(download.value.path()).read_bytes().startswith(b"\x89PNG")
+
+
+def test_without_ros_there_are_no_tools_for_it(window: ToolsPage) -> None:
+    assert window.page.is_hidden('.tab[data-panel="driving"]')
+    window.show("record")
+    assert window.page.is_hidden(".record select")
+
+
+def test_a_tab_that_a_scene_cannot_use_gives_way_to_another(window: ToolsPage) -> None:
+    window.page.evaluate("bubblesim.layout.showFor({ ros: true })")
+    window.show("driving")
+    window.page.evaluate("bubblesim.layout.showFor({ ros: false })")
+    assert window.page.is_hidden(".driving")
+    assert window.page.is_visible('.tab.on[data-panel="properties"]')

@@ -8,25 +8,24 @@ const STEPS = [
   ["Wheel", "zooms"],
   ["Double click", "looks at an object"],
   ["F", "follows it"],
-  ["W A S D", "drives: tab Drive"],
   ["?", "all keys"],
 ];
+const step = ([what, text]) => h("span", h("kbd", what), ` ${text}`);
 const KEPT = "first-steps";
 
 /// Returns the line, or null if it was closed in this browser.
-export function firstSteps() {
+export function firstSteps(app) {
   if (localStorage.getItem(KEPT) === "known") return null;
   const close = () => {
     localStorage.setItem(KEPT, "known");
     line.remove();
   };
+  const drive = step(["W A S D", "drives: tab Drive"]);
+  app.link.on("scene", ({ ros }) => (drive.hidden = !ros));
   const line = h(
     "aside.first-steps",
     { "aria-label": "First steps" },
-    h(
-      "p",
-      STEPS.map(([what, text]) => h("span", h("kbd", what), ` ${text}`)),
-    ),
+    h("p", STEPS.map(step), drive),
     h("button", { onclick: close }, "Got it"),
   );
   return line;

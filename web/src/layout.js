@@ -37,6 +37,11 @@ export class Layout {
     for (const place of Object.values(this.#places)) place.show(id);
   }
 
+  /// Shows the tabs that a scene can use; `info` describes it, see link.js.
+  showFor(info) {
+    for (const place of Object.values(this.#places)) place.showFor(info);
+  }
+
   /// Hides or shows a place.
   toggle(name) {
     this.#places[name].toggle();
@@ -78,6 +83,11 @@ class Place {
     if (!this.#panels.some((each) => each.id === id)) return;
     if (this.element.hidden) this.toggle();
     this.#select(id);
+  }
+
+  showFor(info) {
+    for (const { panel, tab } of this.#panels) tab.hidden = Boolean(panel.needsRos) && !info.ros;
+    if (this.#current.tab.hidden) this.#select(this.#panels.find(({ tab }) => !tab.hidden).id, false);
   }
 
   toggle() {

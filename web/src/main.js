@@ -56,9 +56,10 @@ link.on("gone", () => {
 });
 link.on("scene", (info) => {
   document.title = `${info.scene} - bubblesim`;
+  layout.showFor(info);
   showState();
 });
-layout.centre.append(lost, notices.element, ...[firstSteps()].filter(Boolean));
+layout.centre.append(lost, notices.element, ...[firstSteps(app)].filter(Boolean));
 document.body.append(layout.element);
 showState();
 link.connect();

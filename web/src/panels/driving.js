@@ -17,6 +17,7 @@ export const driving = {
   id: "driving",
   title: "Drive",
   place: "right",
+  needsRos: true,
   create(app) {
     const topic = h("input", { value: localStorage.getItem("drive-topic") ?? "/cmd_vel", list: "drive-topics", spellcheck: false });
     const known = h("datalist", { id: "drive-topics" });

@@ -3,6 +3,7 @@
 //   id, title
 //   place          left, right or bottom
 //   create(app)    returns its element; app is described in main.js
+//   needsRos       its tab is hidden for scenes without ROS (optional)
 //   show(), hide() called when its tab is selected, and when another one is (both optional)
 import { cameras } from "./cameras.js";
 import { output } from "./console.js";

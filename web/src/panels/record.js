@@ -30,6 +30,7 @@ export const record = {
       if (found) showState(found);
     };
     this.poll = new Poll(app, 2000, async () => {
+      if (bag.hidden) return;
       showState(await app.link.call("server.recording", [], "ros"));
       if (runs) return;
       const found = await app.link.call("server.topics", [], "ros").catch(() => []);
@@ -38,15 +39,16 @@ export const record = {
       const chosen = new Set([...topics.selectedOptions].map(({ value }) => value));
       topics.replaceChildren(...names.map((value) => h("option", { value, selected: chosen.has(value) }, value)));
     });
-    return h(
-      "div.record",
-      shot,
+    const bag = h(
+      "div.bag",
       h("h3", "Topics"),
       topics,
       h("p.hint", "Select topics, or none to record all of them. The bag is written where the window was started."),
       toggle,
       state,
     );
+    app.link.on("scene", ({ ros }) => (bag.hidden = !ros));
+    return h("div.record", shot, bag);
   },
   show() {
     this.poll.start();
