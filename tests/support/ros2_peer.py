@@ -159,6 +159,11 @@ class Ros2Peer(PeerProcess):
     def decode(self, message_type: str, data: bytes) -> Message:
         return self._ask("message", do="decode", type=message_type, data=base64.b64encode(data).decode())
 
+    def recode(self, message_type: str, data: bytes) -> tuple[Message, bytes]:
+        """Return the message that rclpy reads, and the bytes that it writes of it."""
+        answer = self._ask("recoded", do="recode", type=message_type, data=base64.b64encode(data).decode())
+        return answer["message"], base64.b64decode(answer["bytes"])
+
     def _ask(self, label: str, **command: Any) -> Any:
         self._take_in()
         number = len(self._received.setdefault(label, []))

@@ -38,8 +38,7 @@ def plain(value: Any) -> Any:
     """Return a message as JSON can hold it."""
     if hasattr(value, "get_fields_and_field_types"):
         types = value.get_fields_and_field_types()
-        values = {name: getattr(value, name) for name in types}
-        return {name: each[0] if types[name] == "octet" else plain(each) for name, each in values.items()}
+        return {name: numbers(types[name], getattr(value, name)) for name in types}
     if isinstance(value, bytes) or getattr(value, "typecode", "") == "B":
         return {"base64": base64.b64encode(bytes(value)).decode()}
     if isinstance(value, np.ndarray) or hasattr(value, "tolist"):
@@ -47,6 +46,13 @@ def plain(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [plain(item) for item in value]
     return value
+
+
+def numbers(spelling: str, value: Any) -> Any:
+    """Return a field as JSON can hold it; rclpy has bytes of length 1 for an octet."""
+    if spelling == "octet":
+        return value[0]
+    return [octet[0] for octet in value] if "octet" in spelling else plain(value)
 
 
 def fill(message: Any, values: dict[str, Any]) -> Any:
@@ -210,6 +216,10 @@ class Peer:
 
     def decode(self, type: str, data: str) -> None:  # noqa: A002
         report("message", plain(deserialize_message(base64.b64decode(data), type_of(type))))
+
+    def recode(self, type: str, data: str) -> None:  # noqa: A002
+        message = deserialize_message(base64.b64decode(data), type_of(type))
+        report("recoded", {"message": plain(message), "bytes": base64.b64encode(serialize_message(message)).decode()})
 
 
 def main() -> None:
