@@ -155,6 +155,13 @@ def test_old_programs_include_files_beside_the_script(tmp_path: Path) -> None:
     assert in_init(tmp_path, body) == ["5\t8\t5"]
 
 
+def test_a_script_does_not_include_itself(tmp_path: Path) -> None:
+    """Scripts from a file of CoppeliaSim are named after their objects, as are the files that they include."""
+    run = run_script(tmp_path, "sim.includeRel('/script.lua')", "--strict", name="script.lua")
+    assert run.returncode == 3
+    assert f"script.lua:1: file not found: script.lua in {tmp_path}" in run.stderr
+
+
 def test_matrices_are_there_without_require(tmp_path: Path) -> None:
     body = "local m = Matrix(2, 2, {1, 2, 3, 4}) print((m * Vector({1, 1})):data()[2])"
     assert in_init(tmp_path, body)[0] in ("7", "7.0")

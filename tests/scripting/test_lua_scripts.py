@@ -312,3 +312,17 @@ def test_lua_runs_without_an_active_environment(tmp_path: Path) -> None:
         check=False,
     )
     assert (run.stdout, without_slowness(run.stderr)) == ("[/Ball 0.000 s] here\n", "")
+
+
+def test_surplus_arguments_are_ignored_with_one_warning(tmp_path: Path) -> None:
+    code = """
+        function sysCall_init()
+            for i = 1, 2 do print(sim.getInt32Signal('s', false), sim.getSimulationTime(1, 2)) end
+        end
+    """
+    run = run_lua(tmp_path, code)
+    assert run.stdout == "nil\t0.0\n" * 2
+    assert run.stderr.splitlines() == [
+        f"warning: child script of /Ball: sim.{call}: too many positional arguments: the last ones are ignored"
+        for call in ("getInt32Signal(name)", "getSimulationTime()")
+    ]

@@ -43,6 +43,11 @@ def test_without_ros_the_first_use_of_simros_in_lua_states_why(tmp_path: Path, b
     assert f"script.lua:{2 + begin.count(chr(10))}: {NO_ROS}" in reported
 
 
+def test_without_ros_old_names_of_simros_state_why(tmp_path: Path) -> None:
+    reported = failure(tmp_path, "function sysCall_init() simExtROS_sendTransforms({}) end", "script.lua")
+    assert f"script.lua:1: {NO_ROS}" in reported
+
+
 def test_without_ros_simros_is_false_in_lua(tmp_path: Path) -> None:
     run = run_script(tmp_path, "function sysCall_init() if not simROS then print('no ROS') end end", name="script.lua")
     assert (run.stdout, run.stderr) == ("no ROS\n", "")

@@ -140,3 +140,8 @@ def test_old_getters_of_parameters_have_two_results(tmp_path: Path) -> None:
     """
     run = run_script(tmp_path, code, "--strict", name="script.lua")
     assert (run.stdout, run.stderr) == ("1\t0.5\t1\t0\n", "")
+
+
+def test_particles_that_a_script_has_not_are_removed_without_an_error(tmp_path: Path) -> None:
+    code = "function sysCall_init() print(sim.removeParticleObject(-1)) end"
+    assert run_script(tmp_path, code, "--strict", name="script.lua").stdout == "1\n"

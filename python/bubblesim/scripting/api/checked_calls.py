@@ -28,6 +28,15 @@ class ArgumentError(TypeError):
     """Invalid arguments; the text names function, argument, expected and found values."""
 
 
+class SurplusArgumentsError(ArgumentError):
+    """More arguments than a function takes; it was not called."""
+
+    def __init__(self, text: str, most: int) -> None:
+        """Store the number that it takes."""
+        super().__init__(text)
+        self.most = most
+
+
 def value_first(function: Function) -> Function:
     """Let a function (handle, value, reference) also accept (handle, reference, value), as in older scripts."""
 
@@ -105,7 +114,10 @@ class Parameters:
         except TypeError as error:
             parameters = self.signature.parameters.values()
             names = ", ".join(str(each).partition(":")[0].partition("=")[0].strip() for each in parameters)
-            raise ArgumentError(f"{self.full_name}({names}): {error}") from None
+            text = f"{self.full_name}({names}): {error}"
+            if not named and len(arguments) > self._most:
+                raise SurplusArgumentsError(text, int(self._most)) from None
+            raise ArgumentError(text) from None
         if named:  # arguments omitted in between
             bound.apply_defaults()
         return bound.args

@@ -6,6 +6,7 @@ from __future__ import annotations
 import itertools
 import os
 import re
+import sys
 import threading
 from collections.abc import Callable
 from pathlib import Path
@@ -13,6 +14,8 @@ from typing import Any
 
 from lupa import lua54
 
+from bubblesim.program.output import write_line
+from bubblesim.scene_state import log
 from bubblesim.scripting.api.functions import MODULES, caller_of, functions
 from bubblesim.scripting.api.missing_names import explain
 from bubblesim.scripting.api.old_names import note_old_name, of_v_rep, present_name
@@ -65,12 +68,14 @@ class LuaCode:
         :raises ScriptSourceError: if it cannot be read or compiled.
         """
         self._read = read
+        self._file = file
         self._text = text
         self._folders = [file.parent, *search_paths]
         self._modules = modules
         self._waiting: dict[int, Waiting] = {}  # functions that take several steps, by number
         self._begun = 0
         self._thread: LuaThread | None = None
+        self._noted: set[str] = set()  # calls with too many arguments
         self._files: dict[str, Path] = {}  # by chunk name
         self._source = source
         self._place_requested = False
@@ -85,7 +90,7 @@ class LuaCode:
             max_memory=_MAX_MEMORY,
         )
         self.is_confined = not unsafe
-        self._values = LuaValues(self._runtime, self._place_of)
+        self._values = LuaValues(self._runtime, self._place_of, self._note_surplus)
         self._sandbox = self._create_sandbox(modules, unsafe=unsafe)
         self._values.run_in_sandbox = self._sandbox[b"run"]
         self._body, problem = _pair(self._sandbox[b"compile"](_as_lua(text), self._chunk_name(file)))
@@ -163,6 +168,7 @@ class LuaCode:
         host[b"absent"] = to_lua({name: no_ros.reason(name) for name, module in modules.items() if not module})
         host[b"write"] = callable_from_lua(self._write)
         host[b"find_source"] = callable_from_lua(self._find_source)
+        host[b"find_included"] = callable_from_lua(self._find_included)
         host[b"explain"] = callable_from_lua(_explanation)
         modules["sim"].run_waiting = self._begin_waiting
         host[b"waiting"] = self._values.to_lua([f.name for f in functions(type(modules["sim"])) if f.waits])
@@ -254,6 +260,16 @@ class LuaCode:
             self._thread.check_exit()
         return self._place_requested
 
+    def _note_surplus(self, text: str) -> None:
+        """Warn once of a call whose last arguments are ignored."""
+        if text in self._noted:
+            return
+        self._noted.add(text)
+        caller = caller_of(self._modules["sim"])
+        line = f"child script of {caller.object_path}: {text}: the last ones are ignored"
+        write_line(sys.stderr, f"warning: {line}")
+        caller.shared.log.add(log.SCRIPT_WARNING, caller.object_path, line)
+
     def _module(self, module: Any) -> Any:
         constants = {
             name: getattr(module, name)
@@ -274,7 +290,14 @@ class LuaCode:
 
     def _find_source(self, name: str) -> tuple[bytes, bytes]:
         """Return text and chunk name of a Lua file required by the script."""
-        file = find_file(f"{name.replace('.', '/')}.lua", self._folders)
+        return self._source_of(find_file(f"{name.replace('.', '/')}.lua", self._folders))
+
+    def _find_included(self, name: str) -> tuple[bytes, bytes]:
+        """Return the same of a file that is run beside the scene: not the script itself, which is named after its
+        object when it comes from a file of CoppeliaSim."""
+        return self._source_of(find_file(f"{name}.lua", self._folders, but_not=self._file))
+
+    def _source_of(self, file: Path) -> tuple[bytes, bytes]:
         return _as_lua(self._read(file)), self._chunk_name(file)
 
     def _chunk_name(self, file: Path) -> bytes:

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from lupa import lua54
 
+from bubblesim.scripting.api.checked_calls import SurplusArgumentsError
+
 _MAX_DEPTH = 100  # nested tables; more means that a table contains itself
 _INT64 = range(-(2**63), 2**63)
 
@@ -42,11 +44,15 @@ class LuaFunction:
 class LuaValues:
     """Converts the values of one Lua state."""
 
-    def __init__(self, runtime: lua54.LuaRuntime, place_of: Callable[[bytes, int], str]) -> None:
+    def __init__(
+        self, runtime: lua54.LuaRuntime, place_of: Callable[[bytes, int], str], note_surplus: Callable[[str], None]
+    ) -> None:
         """Create it before any globals of the Lua state are removed.
 
         :param place_of: returns FILE:LINE for a chunk name and a line.
+        :param note_surplus: is told about arguments that a function does not take; Lua ignores them.
         """
+        self._note_surplus = note_surplus
         self.run_in_sandbox: Callable[..., Any] | None = None  # the sandbox's function `run`
         self._new_table = runtime.table_from
         self._about = runtime.globals()[b"debug"][b"getinfo"]
@@ -123,6 +129,9 @@ class LuaValues:
                 return (True, turn_is_over(), *map(self.to_lua, results))
             except KeyboardInterrupt:
                 return False, None
+            except SurplusArgumentsError as error:
+                self._note_surplus(str(error))
+                return call(*arguments[: error.most])
             except Exception as error:
                 return False, (str(error) or type(error).__name__).encode(errors="backslashreplace")
 

@@ -100,11 +100,13 @@ local write, explain, whole = checked(host.write), checked(host.explain), checke
 local old_name, v_rep_name = checked(host.old_name), checked(host.v_rep_name)
 
 local missing = {}  -- modules, by unknown names that a script has used
+local reasons = {}  -- why old names have no function, which belongs to an absent module
 
 -- Lua's error messages name the nil value. For modules of the simulator, replace them by more helpful ones.
 local function explained(text)
   local where, called = match(text, "^(.-:%d+: )attempt to call a nil value %(%a+ '([%w_]+)'%)")
   if called and missing[called] ~= nil then return where .. explain(missing[called], called) end
+  if called and reasons[called] then return where .. reasons[called] end
   local place, indexed = match(text, "^(.-:%d+: )attempt to index a nil value %(%a+ '([%w_]+)'%)")
   if indexed and host.absent[indexed] then return place .. host.absent[indexed] end
   return text
@@ -247,6 +249,10 @@ setmetatable(globals, {
       missing[wanted] = ""
       return nil
     end
+    if not modules[module] then
+      reasons[wanted] = host.absent[module]
+      return nil
+    end
     local value = modules[module][present]
     globals[wanted] = value
     return value
@@ -271,7 +277,7 @@ host.libraries(globals, not host.unsafe, {
   read_file = checked(host.read_file), getenv = checked(host.getenv), write = write, shown = host.shown,
 }, fail)
 
-local find_source = checked(host.find_source)
+local find_source, find_included = checked(host.find_source), checked(host.find_included)
 local required = {}
 function globals.require(name)
   local bare = type(name) == "string" and match(name, "^[^-]*")
@@ -297,7 +303,7 @@ local function including(function_name)
     if type(name) ~= "string" or not utf8.len(name) then
       fail(function_name .. ": argument 1, file: expected a string, found " .. type(name))
     end
-    local text, chunk_name = find_source((match(name, "[^/\\]*$"):gsub("%.lua$", "")))
+    local text, chunk_name = find_included((match(name, "[^/\\]*$"):gsub("%.lua$", "")))
     local chunk, problem = load(text, chunk_name, "t", globals)
     if not chunk then error(problem, 0) end
     return chunk()

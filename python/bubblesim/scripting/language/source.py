@@ -32,14 +32,16 @@ def read_text(file: Path) -> str:
         raise ScriptSourceError(f"{file}: cannot be read: {error}") from error
 
 
-def find_file(name: str, folders: list[Path]) -> Path:
+def find_file(name: str, folders: list[Path], *, but_not: Path | None = None) -> Path:
     """Find a file that a script includes or requires.
 
+    :param but_not: a file that is not meant.
     :raises ScriptSourceError: if no folder contains it.
     """
     for folder in folders:
-        if (folder / name).is_file():
-            return folder / name
+        file = folder / name
+        if file.is_file() and file != but_not:
+            return file
     searched = ", ".join(str(folder) for folder in folders)
     raise ScriptSourceError(f"file not found: {name} in {searched}; add its folder with --script-path")
 

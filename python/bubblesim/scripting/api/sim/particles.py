@@ -69,7 +69,9 @@ class ParticleFunctions(DrawingFunctions):
         return 1
 
     def removeParticleObject(self, particles: int) -> int:
-        """Remove particles; return 1."""
+        """Remove particles; return 1. Old scripts have -1 where there are none."""
+        if particles == -1:
+            return 1
         if particles == self.handle_all:
             for each in list(self._particles):
                 self.removeParticleObject(each)
