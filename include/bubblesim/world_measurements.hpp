@@ -12,10 +12,14 @@
 
 namespace bubblesim {
 
-/// A point where two shapes touch.
+/// A point where shapes of two links touch; world axes.
 struct TouchPoint {
-  Vector3 position;         ///< m, in the world
-  double normal_force = 0;  ///< N
+  ObjectId first = kNoObject;   ///< link
+  ObjectId second = kNoObject;  ///< link
+  Vector3 position;             ///< m
+  Vector3 normal;               ///< direction in which the second link pushes the first
+  double normal_force = 0;      ///< N
+  Vector3 force;                ///< N, on the first link, with friction
 };
 
 /// What an inertial measurement unit measures, in its axes: the specific force is the acceleration minus gravity.

@@ -58,11 +58,7 @@ int run_node(Options& options, int& argc, char** argv) {
   watch_stop_signals();  // before this there is nothing to shut down
   Node node(options);
   node.bridges = make_bridges(node, argc, argv);
-  if (!stop_requested()) node.python = std::make_unique<PythonEngine>();
   if (stop_requested()) return kFine;
-  node.guard = std::make_unique<StopGuard>(&interrupt_scripts, [&bridges = node.bridges] {
-    for (const auto& bridge : bridges) bridge->leave();
-  });
   auto session = std::make_unique<Session>(node, std::move(simulation), true);
   while (const std::shared_ptr<const Scene> next = session->run()) {
     session.reset();

@@ -48,6 +48,14 @@ RunnerOptions runner_options(const Options& options, const ScriptCounts& counts,
   return how;
 }
 
+/// The guard is there for scripts. Python itself may take longer to start, on a slow machine.
+void start_python(Node& node) {
+  node.python = std::make_unique<PythonEngine>();
+  node.guard = std::make_unique<StopGuard>(&interrupt_scripts, [&bridges = node.bridges] {
+    for (const auto& bridge : bridges) bridge->leave();
+  });
+}
+
 /// Why clients cannot load another scene.
 std::string fixed_scene(const Options& options) {
   if (!options.record.empty()) return "the node records messages (--record), which ends with the scene";
@@ -82,7 +90,7 @@ int ScriptCounts::disabled() const {
 }
 
 Session::RunnerUse::~RunnerUse() {
-  node.python->end();
+  if (node.python) node.python->end();
   for (const auto& bridge : node.bridges) bridge->shutdown_endpoints();
   runner.finish();  // it runs in no background, so this does not throw; the bridge's threads wait for commands
   node.runner.set(nullptr);
@@ -110,6 +118,7 @@ Session::Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_fir
     simulation_->add(*ros_.back());
     bridges.push_back(bridge.get());
   }
+  if (!node.python) start_python(node);
   PythonEngine& python = *node.python;
   python.begin(runner_, bridges);
   if (with_ros && (!options.record.empty() || !options.lockstep.empty())) {

@@ -74,7 +74,7 @@ struct Node {
   std::unique_ptr<RemoteApiServer> remote_api;  ///< null without remote clients
 };
 
-/// Runs one scene in a node, which must outlive it. The first session makes the node's server for remote clients.
+/// Runs one scene in a node, which must outlive it. The first session makes the node's missing parts.
 class Session {
  public:
   /// `is_first`: the scene of the command line, which starts as the options require; later ones are stopped. `failure`:

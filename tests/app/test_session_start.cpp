@@ -134,7 +134,6 @@ left = sorted(type(each).__name__ for each in gc.get_objects() if type(each).__n
 
 /// The node of all tests: Python and roscpp start once in a process.
 struct OneNode {
-  OneNode() { node.python = std::make_unique<PythonEngine>(); }
   Options options;
   Node node{options};
 };

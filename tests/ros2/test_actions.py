@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from node_support import Node, write
+from node_support import Node, run_sim, write
 from ros2_peer import Domain, Ros2Peer
-from ros_support import wait_until
+from ros_support import RosCore, wait_until
 
 FIBONACCI = "test_msgs/action/Fibonacci"
 SUCCEEDED, CANCELED, ABORTED = 4, 5, 6  # action_msgs/msg/GoalStatus
@@ -143,3 +143,21 @@ def test_an_unknown_action_is_named_with_a_similar_one(ros2_domain: Domain, pack
     with node_with(ros2_domain, packages, tmp_path, script) as node:
         node.wait_for_output("test_msgs/Fibonaci has no definition")
         assert "did you mean test_msgs/Fibonacci?" in node.output
+
+
+@pytest.mark.parametrize("version", ["1", "2"])
+def test_the_types_of_ros2s_examples_are_there(
+    ros2_domain: Domain, roscore: RosCore, tmp_path: Path, version: str
+) -> None:
+    script = """
+        def sysCall_init():
+            for part in ('Goal', 'Result', 'Feedback'):
+                print(list(simROS2.createInterface(f'example_interfaces/action/Fibonacci{part}')))
+            simROS2.createService('/add', 'example_interfaces/srv/AddTwoInts', lambda request: {'sum': 5})
+            sim.quitSimulator()
+    """
+    file = write(tmp_path / "script.py", script)
+    env = {**ros2_domain.env(), **roscore.env} if version == "1" else ros2_domain.env()
+    run = run_sim("ball", f"--ros={version}", "--strict", "--child-script", f"/Ball={file}", env=env)
+    assert run.returncode == 0, run.stderr
+    assert run.stdout == "['order']\n['sequence']\n['sequence']\n"

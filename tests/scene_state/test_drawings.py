@@ -141,6 +141,15 @@ near(items(dots)[:, 0], [1, 2])
     check(tmp_path, body)
 
 
+def test_surplus_numbers_of_an_item_are_left_out(tmp_path: Path) -> None:
+    body = """
+dots = sim.addDrawingObject(sim.drawing_points, 1, 0, -1, 5)
+assert sim.addDrawingObjectItem(dots, [1, 0, 0, 2, 0, 0]) == 1
+near(items(dots)[:, 0], [1])
+"""
+    check(tmp_path, body)
+
+
 def test_bad_arguments_are_refused(tmp_path: Path) -> None:
     body = """
 dots = sim.addDrawingObject(sim.drawing_points, 1, 0, -1, 5)

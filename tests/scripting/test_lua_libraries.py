@@ -162,6 +162,10 @@ def test_a_script_does_not_include_itself(tmp_path: Path) -> None:
     assert f"script.lua:1: file not found: script.lua in {tmp_path}" in run.stderr
 
 
+def test_the_table_of_coppeliasims_own_files_is_there(tmp_path: Path) -> None:
+    assert in_init(tmp_path, "_S.last = _S.last or 3 print(_S.last)") == ["3"]
+
+
 def test_matrices_are_there_without_require(tmp_path: Path) -> None:
     body = "local m = Matrix(2, 2, {1, 2, 3, 4}) print((m * Vector({1, 1})):data()[2])"
     assert in_init(tmp_path, body)[0] in ("7", "7.0")

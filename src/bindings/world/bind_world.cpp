@@ -2,11 +2,13 @@
 // bubblesim._core.World: objects by handle, with plain lists and numbers, for the `sim` functions of child scripts.
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <variant>
 
 #include "bindings.hpp"
@@ -220,6 +222,29 @@ void bind_world(py::module_& module) {
             return points;
           },
           "Return x, y, z (m) and the normal force (N) of each contact point of the last physics substep.")
+      .def(
+          "contact_point",
+          [](const World& w, std::size_t index, const std::vector<ObjectId>& links) -> py::object {
+            const auto is_one = [&links](ObjectId link) {
+              return std::find(links.begin(), links.end(), link) != links.end();
+            };
+            for (TouchPoint point : w.measurements().contact_points()) {
+              if (!links.empty() && !is_one(point.first)) {
+                if (!is_one(point.second)) continue;
+                std::swap(point.first, point.second);
+                point.normal = -point.normal;
+                point.force = -point.force;
+              }
+              if (index-- > 0) continue;
+              return py::make_tuple(point.first, point.second, to_list(point.position), to_list(point.force),
+                                    to_list(point.normal));
+            }
+            return py::none();
+          },
+          py::arg("index"), py::arg("links"),
+          "Return the contact point with an index from 0 among those of some links, or of all if none are given: the "
+          "link, the other link, the position (m), the force on the link (N) and the direction in which the other one "
+          "pushes it; None behind the last.")
       .def_property_readonly("models", [](const World& w) { return w.tree().models(); })
       .def(
           "children", [](const World& w, ObjectId id) { return w.tree().children(id); },

@@ -259,6 +259,8 @@ setmetatable(globals, {
   end,
 })
 
+globals._S = {}  -- where CoppeliaSim's own Lua files keep their values, and some scripts theirs
+
 local sim = modules.sim
 host.wait(sim, host.waiting, checked(host.go_on), function() return running() == thread end, function(enabled)
   is_stepping = enabled

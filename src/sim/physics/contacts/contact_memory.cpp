@@ -145,8 +145,8 @@ void remember_contacts(const FoundContacts& found, ContactMemory& memory, Contac
       const FoundContact& point = found.points[pair.begin + static_cast<std::size_t>(i)];
       const Vector3 normal = to_vector(point.contact.geom.normal);
       const double load = std::max(point.force.dot(normal), 0.0);
-      memory.points.push_back({to_vector(point.contact.geom.pos), load, point.force - normal * point.force.dot(normal),
-                               point.torque, next_limit(point, load)});
+      memory.points.push_back({to_vector(point.contact.geom.pos), normal, load,
+                               point.force - normal * point.force.dot(normal), point.torque, next_limit(point, load)});
       now.load += load;
     }
     memory.pairs.push_back(now);

@@ -17,6 +17,7 @@ class Fnv1a;
 
 struct RememberedPoint {
   Vector3 position;   ///< m, in the world
+  Vector3 direction;  ///< of the normal force on the first shape, unit vector in the world
   double normal = 0;  ///< N, normal force
   Vector3 friction;   ///< N, on the first shape, in world axes
   Vector3 torque;     ///< N m, likewise: resistance to rolling and spinning

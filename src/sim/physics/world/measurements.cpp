@@ -35,7 +35,14 @@ std::vector<Contact> WorldMeasurements::contacts(ObjectId link) const {
 
 std::vector<TouchPoint> WorldMeasurements::contact_points() const {
   std::vector<TouchPoint> points;
-  for (const RememberedPoint& point : state().contacts.memory.points) points.push_back({point.position, point.normal});
+  const ContactMemory& memory = state().contacts.memory;
+  for (const RememberedPair& pair : memory.pairs) {
+    for (std::size_t i = pair.begin; i < pair.begin + static_cast<std::size_t>(pair.count); ++i) {
+      const RememberedPoint& point = memory.points[i];
+      points.push_back({pair.first->link->object, pair.second->link->object, point.position, point.direction,
+                        point.normal, point.direction * point.normal + point.friction});
+    }
+  }
   return points;
 }
 

@@ -38,7 +38,7 @@ void transfer_memory(StateArchive& archive, const WorldState& state, ContactMemo
     }
   }
   for (RememberedPoint& point : memory.points) {
-    archive(point.position, point.normal, point.friction, point.torque, point.limit);
+    archive(point.position, point.direction, point.normal, point.friction, point.torque, point.limit);
   }
 }
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -17,6 +18,8 @@ from bubblesim.scripting.api.ros.services import RosServices
 from bubblesim.scripting.api.ros.stamps import now
 from bubblesim.scripting.api.ros.transforms import RosTransforms
 from bubblesim.scripting.api.ros.transport import read_transport_hints
+
+_PART_OF_ACTION = re.compile(r"(?P<package>\w+)/action/(?P<action>\w+)(?P<part>Goal|Result|Feedback)")
 
 
 @script_module("simROS")
@@ -173,9 +176,21 @@ class SimRos2(RosServices, RosTransforms, RosImages, RosParameters, RosActions):
         self._shutdown_subscriber(subscriber)
 
     def createInterface(self, message_type: str) -> dict[str, Any]:
-        """Return a message with all fields at their defaults."""
-        message: dict[str, Any] = _core.messages.default(message_type, self._time_form, self._bridge.version)
+        """Return a message with all fields at their defaults; `package/action/NameGoal` is the goal of an action, and
+        so are its `Result` and `Feedback`."""
+        name = self._part_of_action(message_type) or message_type
+        message: dict[str, Any] = _core.messages.default(name, self._time_form, self._bridge.version)
         return message
+
+    def _part_of_action(self, name: str) -> str | None:
+        part = _PART_OF_ACTION.fullmatch(name)
+        if part is None:
+            return None
+        if not self._is_ros2:
+            return f"{part['package']}/{part['action']}{part['part']}"
+        from bubblesim.messages.runtime import add_action
+
+        return f"{add_action(part['package'] + '/' + part['action'])}_{part['part']}"
 
     def getInterfaceConstants(self, message_type: str) -> dict[str, Any]:
         """Return the constants of a type, by name."""

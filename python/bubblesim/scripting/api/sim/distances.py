@@ -139,15 +139,18 @@ class DistanceFunctions(ObjectChangeFunctions, CollectionFunctions):
             return [carrier] if carrier >= 0 else []
         return []
 
+    def _objects_of_entity(self, entity: int) -> list[int]:
+        if entity == self.handle_all:
+            return [each for root in self._tree.children(-1) for each in self._tree.with_all_below(root)]
+        if entity in self._caller.shared.collections.by_handle:
+            return self.getCollectionObjects(entity)
+        found = self._resolve(entity)
+        self._tree.kind(found)  # raises
+        return [found]
+
     def _links_of_entity(self, entity: int, property_bit: int) -> set[int]:
         """Return the links of an entity that have a special property."""
-        if entity == self.handle_all:
-            objects = [each for root in self._tree.children(-1) for each in self._tree.with_all_below(root)]
-        elif entity in self._caller.shared.collections.by_handle:
-            objects = self.getCollectionObjects(entity)
-        else:
-            objects = [self._resolve(entity)]
-            self._tree.kind(objects[0])  # raises
+        objects = self._objects_of_entity(entity)
         settings = self._caller.shared.settings
 
         def has_property(handle: int) -> bool:

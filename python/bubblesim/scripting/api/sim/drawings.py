@@ -99,7 +99,9 @@ class DrawingFunctions(ApiContext):
         flags = found.type
         old = (flags & _TYPE) in _WITH_NORMALS
         count = found.style.values - old
-        if not item or len(item) % count or (len(item) != count and not several):
+        if not several:
+            item = item[:count]  # scripts use one list for drawings of several types
+        if not item or len(item) % count:
             needed = f"a multiple of {count}" if several else str(count)
             raise ValueError(
                 f"sim.addDrawingObjectItem: an item of this drawing has {needed} numbers, found {len(item)}"

@@ -7,6 +7,7 @@ from bubblesim.scripting.api.functions import script_module
 from bubblesim.scripting.api.sim.accepted_functions import AcceptedFunctions
 from bubblesim.scripting.api.sim.added_scripts import AddedScriptFunctions
 from bubblesim.scripting.api.sim.colours_and_textures import LookFunctions
+from bubblesim.scripting.api.sim.contacts import ContactFunctions
 from bubblesim.scripting.api.sim.created_sensors import CreatedSensorFunctions
 from bubblesim.scripting.api.sim.distances import DistanceFunctions
 from bubblesim.scripting.api.sim.drawings import DrawingFunctions
@@ -53,6 +54,7 @@ class SimApi(
     SensorFunctions,
     VisionFunctions,
     LookFunctions,
+    ContactFunctions,
     DistanceFunctions,
     CollectionFunctions,
     PropertyFunctions,
