@@ -6,6 +6,7 @@ import json
 import math
 import sys
 import time
+from collections.abc import Callable
 
 import rospy
 from gazebo_msgs.msg import ModelStates
@@ -13,6 +14,8 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 
 PERIOD = 0.02  # s of wall time between commands
+STILL = 0.002  # m or rad, less than what counts
+LONGEST_REST = 10.0  # s
 
 
 def heading(orientation) -> float:
@@ -41,17 +44,25 @@ class Drive:
         self.commands.publish(twist)
         time.sleep(PERIOD)
 
-    def rest(self, seconds: float) -> None:
-        until = rospy.get_time() + seconds
-        while rospy.get_time() < until:
+    def rest(self, each: Callable[[], None] = lambda: None) -> None:
+        """Stand for a second, and until the odometry does so, too: on a busy machine its filter is late."""
+        end = rospy.get_time() + LONGEST_REST
+        reported, until = self.reported(), rospy.get_time() + 1.0
+        while rospy.get_time() < min(until, end):
             self.send(0.0, 0.0)
+            each()
+            if math.dist(self.reported(), reported) > STILL:
+                reported, until = self.reported(), rospy.get_time() + 1.0
+
+    def reported(self) -> tuple[float, float, float]:
+        return self.odometry.position.x, self.odometry.position.y, heading(self.odometry.orientation)
 
     def ahead(self, speed: float, distance: float) -> tuple[float, float]:
         """Return the distances by odometry and in truth."""
         starts = self.odometry, self.truth
         while self.distance(starts[0], self.odometry) < distance:
             self.send(speed, 0.0)
-        self.rest(1.0)
+        self.rest()
         return self.distance(starts[0], self.odometry), self.distance(starts[1], self.truth)
 
     def turn(self, speed: float, angle: float) -> tuple[float, float]:
@@ -68,10 +79,7 @@ class Drive:
         while abs(sums[0]) < angle:
             self.send(0.0, speed)
             add()
-        until = rospy.get_time() + 1.0
-        while rospy.get_time() < until:
-            self.send(0.0, 0.0)
-            add()
+        self.rest(add)
         return abs(sums[0]), abs(sums[1])
 
     @staticmethod
@@ -85,7 +93,7 @@ def main() -> None:
     drive = Drive(model, commands, odometry)
     while drive.odometry is None or drive.truth is None or drive.commands.get_num_connections() == 0:
         time.sleep(0.05)
-    drive.rest(1.0)  # it settles
+    drive.rest()  # it settles
     distances = drive.ahead(float(linear), 2.0)
     angles = drive.turn(float(angular), math.pi)
     print(json.dumps({"distances": distances, "angles": angles}), flush=True)
