@@ -47,7 +47,7 @@ def test_all_texts_have_enough_contrast(tmp_path: Path, browser: Browser, scheme
         page.set_default_timeout(TIMEOUT)
         window = Window(page, node.address)
         node.windows.append(window)
-        window.js("bubblesim.layout.showFor({ ros: true })")  # the texts of the tabs that need it
+        window.js("bubblesim.layout.showFor({ ros: true })")  # also the tabs that need it
         faint = set()
         for tab in TABS:
             page.locator(".tab", has_text=tab).click()

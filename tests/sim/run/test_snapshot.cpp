@@ -236,7 +236,7 @@ TEST(Snapshot, RemovesModelsThatWereAddedSince) {
 TEST(Snapshot, HasTheSizeOfItsVersion) {
   Simulation simulation(scene({floor(), model("Box", link_with(Box{{1, 1, 1}}), at(0, 0, 2))}));
   const std::string saved = simulation.save();
-  EXPECT_EQ(static_cast<int>(saved[16]), 6) << "version";
+  EXPECT_EQ(static_cast<int>(saved[16]), 7) << "version";
   EXPECT_EQ(saved.size(), 839U) << "bytes";
 }
 
