@@ -12,7 +12,7 @@ from lupa import lua54
 from bubblesim.scripting.language.lua_values import LuaFunction, LuaValues
 
 LUA = lua54.LuaRuntime(encoding=None, unpack_returned_tuples=True, register_eval=False, register_builtins=False)
-VALUES = LuaValues(LUA, lambda chunk, line: f"{chunk.decode()}:{line}")
+VALUES = LuaValues(LUA, lambda chunk, line: f"{chunk.decode()}:{line}", lambda _text: None)
 VALUES.run_in_sandbox = LUA.eval(b"function(body, ...) return true, body(...) end")
 
 
