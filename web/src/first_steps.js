@@ -13,9 +13,9 @@ const STEPS = [
 const step = ([what, text]) => h("span", h("kbd", what), ` ${text}`);
 const KEPT = "first-steps";
 
-/// Returns the line, or null if it was closed in this browser.
-export function firstSteps(app) {
-  if (localStorage.getItem(KEPT) === "known") return null;
+/// Shows the line, unless it was closed in this browser.
+export function showFirstSteps(app) {
+  if (localStorage.getItem(KEPT) === "known") return;
   const close = () => {
     localStorage.setItem(KEPT, "known");
     line.remove();
@@ -28,5 +28,5 @@ export function firstSteps(app) {
     h("p", STEPS.map(step), drive),
     h("button", { onclick: close }, "Got it"),
   );
-  return line;
+  app.layout.centre.append(line);
 }

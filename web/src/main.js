@@ -12,7 +12,7 @@ import "./main.css";
 
 import { h } from "./dom.js";
 import { Editing } from "./editing.js";
-import { firstSteps } from "./first_steps.js";
+import { showFirstSteps } from "./first_steps.js";
 import { Layout } from "./layout.js";
 import { Link } from "./link.js";
 import { Notices } from "./notices.js";
@@ -59,7 +59,8 @@ link.on("scene", (info) => {
   layout.showFor(info);
   showState();
 });
-layout.centre.append(lost, notices.element, ...[firstSteps(app)].filter(Boolean));
+layout.centre.append(lost, notices.element);
+showFirstSteps(app);
 document.body.append(layout.element);
 showState();
 link.connect();

@@ -50,7 +50,7 @@ class LuaValues:
         """Create it before any globals of the Lua state are removed.
 
         :param place_of: returns FILE:LINE for a chunk name and a line.
-        :param note_surplus: is told about arguments that a function does not take; Lua ignores them.
+        :param note_surplus: called with the error of arguments that a function does not take, which Lua ignores.
         """
         self._note_surplus = note_surplus
         self.run_in_sandbox: Callable[..., Any] | None = None  # the sandbox's function `run`
