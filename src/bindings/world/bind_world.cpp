@@ -2,13 +2,11 @@
 // bubblesim._core.World: objects by handle, with plain lists and numbers, for the `sim` functions of child scripts.
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <variant>
 
 #include "bindings.hpp"
@@ -16,6 +14,7 @@
 #include "bubblesim/world.hpp"
 #include "guarded.hpp"
 #include "numpy_values.hpp"
+#include "world/bind_contacts.hpp"
 #include "world/world_poses.hpp"
 
 namespace bubblesim::bindings {
@@ -110,6 +109,7 @@ void bind_world(py::module_& module) {
       .value("POSITION", MotorMode::kPosition)
       .value("EFFORT", MotorMode::kEffort);
   py::class_<World> world(module, "World", "Objects by handle. Poses are [x, y, z, qx, qy, qz, qw], SI units.");
+  bind_contacts(world);
   Guarded(world)
       .def(
           "find",
@@ -211,40 +211,6 @@ void bind_world(py::module_& module) {
           "they have none, or a plane.")
       .def("model_of", [](const World& w, ObjectId id) { return w.tree().model_of(id); })
       .def("outermost_model_of", [](const World& w, ObjectId id) { return w.tree().outermost_model_of(id); })
-      .def(
-          "contact_points",
-          [](const World& w) {
-            py::list points;
-            for (const TouchPoint& point : w.measurements().contact_points()) {
-              const Vector3& at = point.position;
-              points.append(py::make_tuple(at.x(), at.y(), at.z(), point.normal_force));
-            }
-            return points;
-          },
-          "Return x, y, z (m) and the normal force (N) of each contact point of the last physics substep.")
-      .def(
-          "contact_point",
-          [](const World& w, std::size_t index, const std::vector<ObjectId>& links) -> py::object {
-            const auto is_one = [&links](ObjectId link) {
-              return std::find(links.begin(), links.end(), link) != links.end();
-            };
-            for (TouchPoint point : w.measurements().contact_points()) {
-              if (!links.empty() && !is_one(point.first)) {
-                if (!is_one(point.second)) continue;
-                std::swap(point.first, point.second);
-                point.normal = -point.normal;
-                point.force = -point.force;
-              }
-              if (index-- > 0) continue;
-              return py::make_tuple(point.first, point.second, to_list(point.position), to_list(point.force),
-                                    to_list(point.normal));
-            }
-            return py::none();
-          },
-          py::arg("index"), py::arg("links"),
-          "Return the contact point with an index from 0 among those of some links, or of all if none are given: the "
-          "link, the other link, the position (m), the force on the link (N) and the direction in which the other one "
-          "pushes it; None behind the last.")
       .def_property_readonly("models", [](const World& w) { return w.tree().models(); })
       .def(
           "children", [](const World& w, ObjectId id) { return w.tree().children(id); },
