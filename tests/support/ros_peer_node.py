@@ -43,7 +43,7 @@ def subscribe(topic: str, kind: type) -> None:
 
 def publish(topic: str, kind: type, values: dict[str, Any]) -> None:
     if topic not in PUBLISHERS:
-        PUBLISHERS[topic] = rospy.Publisher(topic, kind, queue_size=10)
+        PUBLISHERS[topic] = rospy.Publisher(topic, kind, queue_size=1000)
     while PUBLISHERS[topic].get_num_connections() == 0 and not rospy.is_shutdown():
         rospy.rostime.wallsleep(0.02)
     message = kind()

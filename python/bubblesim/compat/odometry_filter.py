@@ -3,12 +3,15 @@
 
 It integrates the velocities of the odometry ~odom0 in the plane, with the yaw rate of the IMU ~imu0 if ~imu0_config
 uses it, and passes them on. Parameters as of robot_localization: ~odom0, ~imu0, ~imu0_config, ~frequency (30 Hz),
-~odom_frame, ~base_link_frame, ~world_frame, ~publish_tf. Further sensors have no effect.
+~odom_frame, ~base_link_frame, ~world_frame, ~publish_tf. Further sensors have no effect. Each message counts, so that
+a node that gets little processor time is late, but loses nothing.
 """
 
 from __future__ import annotations
 
 import math
+import threading
+from collections import deque
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,7 +24,7 @@ from tf2_msgs.msg import TFMessage
 from bubblesim.nodes.run_node import run_node
 
 _YAW_RATE = 11  # its index in a configuration of robot_localization
-_LONGEST = 1.0  # s between messages over which velocities are integrated
+_LONGEST = 1.0  # s between messages over which velocities are integrated; s that odometry waits for the IMU
 _KNOWN = ("odom0", "imu0", "odom0_config", "imu0_config")
 
 
@@ -33,18 +36,55 @@ class Pose:
     y: float = 0.0
     heading: float = 0.0
 
-    def move(self, forward: float, leftward: float, turning: float, duration: float) -> None:
-        """Integrate constant velocities (m/s, rad/s) over a duration in s, exact on the arc for forward velocities."""
-        middle = self.heading + turning * duration / 2
-        half = turning * duration / 2
+    def move(self, forward: float, leftward: float, turn: float) -> None:
+        """Move by lengths in m of arcs that turn by an angle in rad."""
+        half = turn / 2
+        middle = self.heading + half
         chord = math.sin(half) / half if abs(half) > 1e-9 else 1.0
-        self.x += chord * duration * (forward * math.cos(middle) - leftward * math.sin(middle))
-        self.y += chord * duration * (forward * math.sin(middle) + leftward * math.cos(middle))
-        self.heading = math.remainder(self.heading + turning * duration, 2 * math.pi)
+        self.x += chord * (forward * math.cos(middle) - leftward * math.sin(middle))
+        self.y += chord * (forward * math.sin(middle) + leftward * math.cos(middle))
+        self.heading = math.remainder(self.heading + turn, 2 * math.pi)
+
+
+class YawRate:
+    """The yaw rate of an IMU, integrated from one odometry message to the next."""
+
+    def __init__(self) -> None:
+        """Know no rate until the first message."""
+        self._latest: float | None = None  # s
+        self._readings: deque[tuple[float, float]] = deque()  # s, rad/s; not yet integrated
+        self._integrated: float | None = None  # s
+        self.rate = 0.0  # rad/s, the last one integrated
+
+    def add(self, time: float, rate: float) -> None:
+        """Add a reading of a time in s, in rad/s."""
+        if self._latest is not None and time < self._latest:  # the simulation was reset
+            self._readings.clear()
+            self._integrated = None
+        self._latest = time
+        self._readings.append((time, rate))
+
+    def is_used(self) -> bool:
+        """Return whether there was a reading."""
+        return self._latest is not None
+
+    def is_there(self, time: float) -> bool:
+        """Return whether all readings up to a time in s are there; without any, nobody waits for them."""
+        return self._latest is None or self._latest >= time
+
+    def turn_until(self, time: float) -> float:
+        """Return the angle in rad of the readings up to a time in s, since the last call."""
+        turn = 0.0
+        while self._readings and self._readings[0][0] <= time:
+            until, self.rate = self._readings.popleft()
+            if self._integrated is not None and until - self._integrated <= _LONGEST:
+                turn += self.rate * (until - self._integrated)
+            self._integrated = until
+        return turn
 
 
 class OdometryFilter:
-    """Integrates with each message of the odometry."""
+    """Integrates the messages of the odometry in the order of their times with those of the IMU."""
 
     def __init__(self) -> None:
         """Read the parameters, and subscribe."""
@@ -60,33 +100,52 @@ class OdometryFilter:
         self._publishes_transform = bool(rospy.get_param("~publish_tf", True))
         self._period = 1.0 / float(rospy.get_param("~frequency", 30.0))
         self._pose = Pose()
-        self._yaw_rate: float | None = None
+        self._yaw_rate = YawRate()
+        self._waiting: deque[Any] = deque()  # odometry for whose time the IMU's messages have not come yet
+        self._lock = threading.Lock()  # each subscriber has a thread of its own
         self._time: float | None = None
         self._published = -math.inf
         self._odometry = rospy.Publisher("odometry/filtered", Odometry, queue_size=10)
         self._transforms = rospy.Publisher("/tf", TFMessage, queue_size=100)
         configuration = list(rospy.get_param("~imu0_config", []))
         if rospy.has_param("~imu0") and len(configuration) > _YAW_RATE and configuration[_YAW_RATE]:
-            rospy.Subscriber(str(rospy.get_param("~imu0")), Imu, self._on_imu, queue_size=10)
+            rospy.Subscriber(str(rospy.get_param("~imu0")), Imu, self._on_imu)
         topic = rospy.get_param("~odom0", None)
         if topic is None:
             raise ValueError("~odom0, the topic of the odometry, is missing")
-        rospy.Subscriber(str(topic), Odometry, self._on_odometry, queue_size=10)
+        rospy.Subscriber(str(topic), Odometry, self._on_odometry)
 
     def _on_imu(self, message: Any) -> None:
-        self._yaw_rate = message.angular_velocity.z
+        with self._lock:
+            self._yaw_rate.add(message.header.stamp.to_sec(), message.angular_velocity.z)
+            self._integrate_waiting()
 
     def _on_odometry(self, message: Any) -> None:
+        with self._lock:
+            self._waiting.append(message)
+            self._integrate_waiting()
+
+    def _integrate_waiting(self) -> None:
+        newest = self._waiting[-1].header.stamp.to_sec() if self._waiting else 0.0
+        while self._waiting:
+            time = self._waiting[0].header.stamp.to_sec()
+            if not self._yaw_rate.is_there(time) and 0.0 <= newest - time <= _LONGEST:
+                return
+            self._integrate(self._waiting.popleft())
+
+    def _integrate(self, message: Any) -> None:
         time = message.header.stamp.to_sec()
         if self._time is not None and time < self._time:  # the simulation was reset
             self._pose, self._published = Pose(), -math.inf
         duration = time - self._time if self._time is not None else 0.0
         self._time = time
         twist = message.twist.twist
-        if self._yaw_rate is not None:
-            twist.angular.z = self._yaw_rate
+        turn = twist.angular.z * duration
+        if self._yaw_rate.is_used():
+            turn = self._yaw_rate.turn_until(time)
+            twist.angular.z = self._yaw_rate.rate
         if 0.0 < duration <= _LONGEST:
-            self._pose.move(twist.linear.x, twist.linear.y, twist.angular.z, duration)
+            self._pose.move(twist.linear.x * duration, twist.linear.y * duration, turn)
         if time < self._published + self._period * 0.99:
             return
         self._published = time
