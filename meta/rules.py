@@ -22,6 +22,8 @@ class FieldRow:
     length: int
     message: str
     default: str = "{}"
+    bound: int = 0
+    string_bound: int = 0
 
 
 @dataclass(frozen=True)
@@ -69,6 +71,8 @@ def ros2_field_row(name: str, kind: ros2_definitions.FieldType, default: bytes) 
         kind=FIELD_KINDS[builtin] if builtin else "kMessage",
         array=array,
         length=kind.length or 0 if array == "kFixed" else 0,
+        bound=kind.length or 0 if kind.is_bounded else 0,
+        string_bound=kind.string_bound or 0,
         message="nullptr" if builtin else cpp_string(kind.base),
         default=_string_view(default) if default else "{}",
     )

@@ -14,7 +14,7 @@ namespace {
 @[if type.fields]@
 constexpr FieldRow kFields_@(type.label)[] = {
 @[for row in type.fields]@
-    {@row.name, FieldKind::@row.kind, ArrayKind::@row.array, @row.length, @row.message, @row.default},
+    {@row.name, FieldKind::@row.kind, ArrayKind::@row.array, @row.length, @row.bound, @row.string_bound, @row.message, @row.default},
 @[end for]@
 };
 @[end if]@

@@ -42,12 +42,13 @@ void put_given_default(const Field& field, WireBuffer& out) {
 std::string_view kind_name(FieldKind kind) { return kNames[static_cast<std::size_t>(kind)]; }
 
 std::string type_text(const Field& field) {
-  const std::string base = field.message != nullptr ? field.message->name : std::string(kind_name(field.kind));
+  std::string base = field.message != nullptr ? field.message->name : std::string(kind_name(field.kind));
+  if (field.string_bound != 0) base += "<=" + std::to_string(field.string_bound);
   switch (field.array) {
     case ArrayKind::kFixed:
       return base + "[" + std::to_string(field.fixed_length) + "]";
     case ArrayKind::kVariable:
-      return base + "[]";
+      return base + (field.bound != 0 ? "[<=" + std::to_string(field.bound) + "]" : "[]");
     default:
       return base;
   }

@@ -31,6 +31,8 @@ struct FieldRow {
   FieldKind kind;
   ArrayKind array;
   std::uint32_t fixed_length;
+  std::uint32_t bound;             ///< see Field
+  std::uint32_t string_bound;      ///< see Field
   const char* message;             ///< name of the nested type, or nullptr
   std::string_view default_value;  ///< see Field
 };

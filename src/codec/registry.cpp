@@ -116,8 +116,8 @@ class Registry {
     MessageType& type = *keep({row.name, row.type_hash, row.definition, row.has_header, {}, {}, version_}, types);
     type.fields.reserve(row.fields.count);  // unresolved_ points into it
     for (const auto& field : row.fields) {
-      type.fields.push_back({field.name, field.kind, field.array, field.fixed_length, nullptr, field_key(field.name),
-                             std::string(field.default_value)});
+      type.fields.push_back({field.name, field.kind, field.array, field.fixed_length, field.bound, field.string_bound,
+                             nullptr, field_key(field.name), std::string(field.default_value)});
       if (field.message != nullptr) unresolved_.emplace_back(&type.fields.back(), field.message);
     }
     for (const auto& constant : row.constants) type.constants.push_back(make_constant(constant));

@@ -115,7 +115,7 @@ class Encoder {
       case FieldKind::kFloat64:
         return number<double>(value);
       case FieldKind::kString:
-        return string(value);
+        return string(field, value);
       case FieldKind::kTime:
         return kIsCdr ? time<std::int32_t>(value) : time<std::uint32_t>(value);
       case FieldKind::kDuration:
@@ -140,18 +140,21 @@ class Encoder {
     return true;
   }
 
-  bool string(PyObject* value) {
+  bool string(const Field& field, PyObject* value) {
     std::string_view bytes;
     PyObject* owner = nullptr;
     if (!read_string(value, bytes, owner, failure)) return false;
-    const bool fits = bytes.size() < std::numeric_limits<std::uint32_t>::max();
+    const std::size_t most =
+        field.string_bound != 0 ? field.string_bound : std::numeric_limits<std::uint32_t>::max() - 1;
+    const bool fits = bytes.size() <= most;
     if (fits) {
       put(static_cast<std::uint32_t>(bytes.size() + (kIsCdr ? 1 : 0)));
       out_.put_bytes(bytes.data(), bytes.size());
       if (kIsCdr) put('\0');
     }
     Py_XDECREF(owner);
-    return fits || failure.set("a string of " + std::to_string(bytes.size()) + " bytes does not fit into a message");
+    return fits ||
+           failure.set("expected at most " + std::to_string(most) + " bytes, found " + std::to_string(bytes.size()));
   }
 
   template <class T>

@@ -174,6 +174,9 @@ bool begin_array(const Field& field, std::size_t count, WireBuffer& out, Convers
   if (field.array == ArrayKind::kFixed && count != field.fixed_length) {
     return failure.set("expected " + std::to_string(field.fixed_length) + " elements, found " + std::to_string(count));
   }
+  if (field.bound != 0 && count > field.bound) {
+    return failure.set("expected at most " + std::to_string(field.bound) + " elements, found " + std::to_string(count));
+  }
   if (count > std::numeric_limits<std::uint32_t>::max()) {
     return failure.set("an array of " + std::to_string(count) + " elements does not fit into a message");
   }

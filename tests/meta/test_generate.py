@@ -235,9 +235,9 @@ def test_tables_of_ros2_are_written_on_request(generator: Generator) -> None:
     run = generator.run("sensor_msgs/CameraInfo\nstd_msgs/Time\n", "std_srvs/Trigger\n", "--ros2")
     assert run.returncode == 0, run.stderr
     table = (generator.output / "ros2_package_sensor_msgs.cpp").read_text()
-    assert '{"k", FieldKind::kFloat64, ArrayKind::kFixed, 9, nullptr, {}}' in table
+    assert '{"k", FieldKind::kFloat64, ArrayKind::kFixed, 9, 0, 0, nullptr, {}}' in table
     assert (
-        '{"stamp", FieldKind::kTime, ArrayKind::kNone, 0, nullptr, {}}'
+        '{"stamp", FieldKind::kTime, ArrayKind::kNone, 0, 0, 0, nullptr, {}}'
         in (generator.output / "ros2_package_std_msgs.cpp").read_text()
     )
     assert '"std_msgs/Time"' not in (generator.output / "ros2_package_std_msgs.cpp").read_text()

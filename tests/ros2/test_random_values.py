@@ -31,9 +31,9 @@ def common_types() -> list[str]:
 @cache
 def values(spelling: str) -> st.SearchStrategy[Any]:
     """Return values of a field type such as "float64[36]"; limits and special numbers are likely."""
-    if array := re.fullmatch(r"(.+)\[(\d*)\]", spelling):
-        base, length = array.groups()
-        least, most = (int(length), int(length)) if length else (0, 3)
+    if array := re.fullmatch(r"(.+)\[(<=)?(\d*)\]", spelling):
+        base, is_bounded, length = array.groups()
+        least, most = int(length or 0) if not is_bounded else 0, int(length or 3)
         return st.lists(values(base), min_size=least, max_size=most)
     if integer := re.fullmatch(r"(u?)int(\d+)", spelling):
         bits = int(integer[2])

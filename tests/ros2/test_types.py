@@ -107,6 +107,29 @@ def test_a_field_of_the_other_side_is_named(name: str, message: Any, version: An
         (codec.encode_ros2 if version == ROS2 else codec.encode)(name, message)
 
 
+def test_more_than_a_bound_allows_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of ROS 2, rclpy and Fast DDS refuse it, too."""
+    (tmp_path / "bounded_msgs" / "msg").mkdir(parents=True)
+    (tmp_path / "bounded_msgs" / "package.xml").write_text("<package><name>bounded_msgs</name></package>")
+    definition = "float64[<=3] numbers\nstring<=5 text\nstring<=2[<=1] names\nstd_msgs/Bool[<=1] flags\n"
+    (tmp_path / "bounded_msgs" / "msg" / "Bounded.msg").write_text(definition)
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    name = "bounded_msgs/Bounded"
+    largest = {"numbers": [1.0, 2.0, 3.0], "text": "fünf", "names": ["ab"], "flags": [{"data": True}]}
+    decoded = codec.decode_ros2(name, codec.encode_ros2(name, largest))
+    assert {**decoded, "numbers": list(decoded["numbers"])} == largest
+    for field, value, expected in [
+        ("numbers", np.arange(4.0), "numbers: expected at most 3 elements, found 4"),
+        ("numbers", [1.0] * 4, "numbers: expected at most 3 elements, found 4"),
+        ("text", "sechs6", "text: expected at most 5 bytes, found 6"),
+        ("names", ["abc"], r"names\[0\]: expected at most 2 bytes, found 3"),
+        ("names", ["a", "b"], "names: expected at most 1 elements, found 2"),
+        ("flags", [{}, {}], "flags: expected at most 1 elements, found 2"),
+    ]:
+        with pytest.raises(codec.MessageError, match=expected):
+            codec.encode_ros2(name, {field: value})
+
+
 HEADER = {"stamp": {"sec": 12, "nanosec": 34}, "frame_id": "map"}
 MESSAGES: dict[str, dict[str, Any]] = {
     "std_msgs/Bool": {"data": True},

@@ -50,6 +50,8 @@ struct Field {
   FieldKind kind = FieldKind::kBool;
   ArrayKind array = ArrayKind::kNone;
   std::uint32_t fixed_length = 0;        ///< of a kFixed array
+  std::uint32_t bound = 0;               ///< in ROS 2, the most values of a kVariable array; 0: any number
+  std::uint32_t string_bound = 0;        ///< in ROS 2, the most bytes of a string; 0: any number
   const MessageType* message = nullptr;  ///< of a kMessage field; owned by the registry
   /// Index of `name` among all field names known to the process (see field_key()). Adapters keep their own form of the
   /// name, such as an interned Python string, in a table under this index.
@@ -106,7 +108,8 @@ void put_default(const Field& field, WireBuffer& out);
 /// The .msg spelling of a kind: "float32"; "message" for kMessage.
 std::string_view kind_name(FieldKind kind);
 
-/// The .msg spelling of a field's type: "geometry_msgs/Point", "float64[36]", "string[]".
+/// The .msg spelling of a field's type: "geometry_msgs/Point", "float64[36]", "string[]"; in ROS 2 also
+/// "float64[<=3]", "string<=5".
 std::string type_text(const Field& field);
 
 /// The kind with that spelling; std::invalid_argument for an unknown spelling.

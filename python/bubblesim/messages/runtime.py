@@ -121,6 +121,7 @@ def _ros2_tuple(specs: Ros2Specs, message: Ros2Message) -> tuple[Any, ...]:
             ROS2_KINDS.get(kind.base, kind.base),
             kind.is_array,
             None if kind.is_bounded else kind.length,
+            (kind.length or 0 if kind.is_bounded else 0, kind.string_bound or 0),
             message.defaults.get(name, b""),
         )
         for name, kind in message.fields
@@ -160,7 +161,10 @@ def _register_tuples(messages: list[tuple[Any, ...]], services: list[tuple[Any, 
 
 
 def _message_tuple(specs: Specs, spec: Any) -> tuple[Any, ...]:
-    fields = [(f.name, KINDS.get(f.base_type, f.base_type), f.is_array, f.array_len, b"") for f in spec.parsed_fields()]
+    fields = [
+        (f.name, KINDS.get(f.base_type, f.base_type), f.is_array, f.array_len, (0, 0), b"")
+        for f in spec.parsed_fields()
+    ]
     constants = [(c.name.strip(), KINDS[c.type], _bytes_of(c.val)) for c in spec.constants]
     definition = _bytes_of(specs.full_text(spec))
     return spec.full_name, specs.md5(spec), definition, has_header(spec.types), fields, constants

@@ -26,8 +26,10 @@ using messages::FieldKind;
 using messages::MessageType;
 using messages::RosVersion;
 
-/// name; kind or name of a message; whether it is an array; its length if fixed; its default, see messages::Field
-using FieldTuple = std::tuple<std::string, std::string, bool, std::optional<std::uint32_t>, py::bytes>;
+/// name; kind or name of a message; whether it is an array; its length if fixed; its bounds as an array and as a
+/// string, and its default: see messages::Field
+using FieldTuple = std::tuple<std::string, std::string, bool, std::optional<std::uint32_t>,
+                              std::pair<std::uint32_t, std::uint32_t>, py::bytes>;
 /// name, kind, value; strings are bytes
 using ConstantTuple = std::tuple<std::string, std::string, py::object>;
 /// name, type hash, definition, has_header, fields, constants
@@ -35,11 +37,12 @@ using MessageTuple =
     std::tuple<std::string, std::string, py::bytes, bool, std::vector<FieldTuple>, std::vector<ConstantTuple>>;
 
 Field make_field(const FieldTuple& tuple, RosVersion version) {
-  const auto& [name, type, is_array, length, default_value] = tuple;
+  const auto& [name, type, is_array, length, bounds, default_value] = tuple;
   Field field;
   field.name = name;
   field.array = !is_array ? ArrayKind::kNone : length ? ArrayKind::kFixed : ArrayKind::kVariable;
   field.fixed_length = length.value_or(0);
+  std::tie(field.bound, field.string_bound) = bounds;
   field.default_value = std::string(default_value);
   if (type.find('/') == type.npos) {
     field.kind = messages::kind_of(type);
