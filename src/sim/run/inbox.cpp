@@ -70,8 +70,7 @@ void Inbox::wake() {
 
 /// Called with the mutex. One signal is enough for a wait.
 void Inbox::signal() {
-  const std::uint64_t one = 1;
-  static_cast<void>(write(signal_, &one, sizeof one));  // cannot block or fail
+  eventfd_write(signal_, 1);  // cannot block or fail
   waits_for_commands_ = waits_for_wake_ = false;
 }
 
@@ -84,8 +83,8 @@ Inbox::Wait::Wait(Inbox& inbox, WaitFor what) : inbox_(inbox), for_input_(what =
 
 Inbox::Wait::~Wait() {
   const std::lock_guard lock(inbox_.mutex_);
-  std::uint64_t count = 0;
-  if (!inbox_.waits_for_commands_) static_cast<void>(read(inbox_.signal_, &count, sizeof count));
+  eventfd_t count = 0;
+  if (!inbox_.waits_for_commands_) eventfd_read(inbox_.signal_, &count);
   inbox_.waits_for_commands_ = inbox_.waits_for_wake_ = false;
   if (for_input_) inbox_.woken_ = false;
 }
