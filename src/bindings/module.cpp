@@ -5,6 +5,7 @@
 PYBIND11_MODULE(_core, core) {
   using namespace bubblesim::bindings;
   core.doc() = "The compiled part of bubblesim.";
+  core.attr("__version__") = BUBBLESIM_VERSION;
   core.def("use_writable_ros_home", &bubblesim::use_writable_ros_home,
            "Let ROS write to a temporary folder if it cannot write to ~/.ros, and print that; return it, or ''.");
   bind_messages(core);

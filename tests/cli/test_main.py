@@ -12,7 +12,7 @@ import pytest
 from cli_support import bubblesim
 from ros_support import built
 
-COMMANDS = ["run", "ps", "shell", "scenes", "new-scene", "describe", "convert", "api", "test", "doctor"]
+COMMANDS = ["demo", "run", "ps", "shell", "scenes", "new-scene", "describe", "convert", "api", "test", "doctor"]
 
 
 def test_help_names_all_commands_and_exit_codes() -> None:
@@ -20,6 +20,11 @@ def test_help_names_all_commands_and_exit_codes() -> None:
     assert run.returncode == 0
     assert all(f"\n    {command}" in run.stdout for command in COMMANDS)
     assert "exit codes: 0 success, 1" in run.stdout
+
+
+def test_it_has_the_version_of_the_node() -> None:
+    node = subprocess.run([built("sim"), "--version"], capture_output=True, text=True, check=True)
+    assert bubblesim("--version").stdout == node.stdout
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -3,7 +3,6 @@
 
 import os
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -11,7 +10,7 @@ import pytest
 from ros_support import built, free_port
 
 COMMANDS = {
-    "demo": [sys.executable, "-m", "bubblesim.demo", "tricycle", "--seconds", "2"],
+    "demo": [str(built("bubblesim")), "demo", "tricycle", "--seconds", "2"],
     "run": [str(built("bubblesim")), "run", "ball", "--roscore", "--until", "0.5", "--speed", "max"],
     "node": [str(built("sim")), "ball", "--until", "0.5", "--speed", "max"],
     "window": [str(built("sim")), "ball", "--until", "0.5", "--web"],

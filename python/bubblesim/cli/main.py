@@ -13,6 +13,7 @@ from bubblesim.messages.names import did_you_mean
 from bubblesim.running.processes import RunError
 
 _COMMANDS = (
+    "demo",
     "run",
     "shell",
     "scenes",
@@ -34,6 +35,7 @@ _FAILED, _BAD_INPUT = 1, 2
 _DESCRIPTION = """\
 Runs robot scenes and helps to write them. Begin with:
 
+  bubblesim demo                         see a tricycle drive
   bubblesim scenes                       list the scenes
   bubblesim run tricycle --roscore       run one, with a ROS master
   bubblesim shell tricycle --no-ros      a Python prompt with `sim`
@@ -63,8 +65,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
+    parser.add_argument("--version", action="store_true", help="print the version, and the commit of a package")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     given = list(sys.argv[1:] if arguments is None else arguments)
+    if given[:1] == ["--version"]:
+        from bubblesim import _core
+
+        print(f"bubblesim {_core.__version__}")
+        return 0
     if given[:1] and not given[0].startswith("-") and given[0] not in _COMMANDS:
         near = did_you_mean(difflib.get_close_matches(given[0], _COMMANDS, n=2))
         known = "; the commands are " + ", ".join(_COMMANDS)

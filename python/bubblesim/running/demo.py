@@ -3,23 +3,12 @@
 
 from __future__ import annotations
 
-import signal
-
-signal.signal(signal.SIGINT, signal.SIG_DFL)  # no traceback for Ctrl-C while modules are loaded
-
-from bubblesim.program import users_packages
-
-users_packages.leave_out()
-
-import argparse
-import os
 import re
 import sys
 import tempfile
 import time
 from pathlib import Path
 
-from bubblesim.program.run import run_program
 from bubblesim.running.master import provide_master, simulated_time
 from bubblesim.running.places import page_folder
 from bubblesim.running.processes import Programs, RunError
@@ -87,22 +76,3 @@ def _window() -> list[str]:
     except RunError:
         return []
     return ["--web"]
-
-
-def main() -> int:
-    """Run the demonstration; return 0 on success, 1 on failure."""
-    parser = argparse.ArgumentParser(prog="scripts/demo", description=__doc__)
-    parser.add_argument("scene", nargs="?", default="tricycle", help="name of a scene or path of an .sdf file")
-    parser.add_argument("--seconds", type=float, default=float("inf"), help="end after this many seconds")
-    arguments = parser.parse_args()
-    os.environ.setdefault("ROS_HOSTNAME", "localhost")  # the machine's host name may not resolve
-    try:
-        run(arguments.scene, arguments.seconds, Path.cwd() / f"demo-{Path(arguments.scene).stem}.png")
-    except RunError as error:
-        print(f"demo: {error}", file=sys.stderr)
-        return 1
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(run_program(main))

@@ -6,17 +6,16 @@ import os
 import re
 import signal
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
-from ros_support import RosCore, free_port, ros_environment, start, stop, wait_until
+from ros_support import RosCore, built, free_port, ros_environment, start, stop, wait_until
 
 
 def demo(folder: Path, port: int, *arguments: str) -> "subprocess.Popen[str]":
     return start(
-        [sys.executable, "-m", "bubblesim.demo", *arguments],
+        [str(built("bubblesim")), "demo", *arguments],
         ros_environment(port, folder / "roslog"),
         cwd=folder,
         stdout=subprocess.PIPE,
