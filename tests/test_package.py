@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Debian package is built of what scripts/setup installs."""
+
+import re
+import subprocess
+
+import pytest
+
+from ros_support import REPOSITORY
+
+CONTROL = (REPOSITORY / "debian" / "control").read_text()
+LISTS = REPOSITORY / "scripts" / "environment"
+TOOLS = {"debhelper-compat", "dh-python", "catkin", "python3-venv"}  # of packaging alone, or which catkin-tools brings
+PROGRAMS_OF_WORKSPACES = {"catkin-tools"}
+
+
+def field(name: str) -> set[str]:
+    """Return the packages of a field of the first paragraph that has it."""
+    found = re.search(rf"^{name}:\n?((?: .*\n)+)", CONTROL, re.MULTILINE)
+    assert found is not None, name
+    return {re.sub(r" \(.*\)", "", line.strip(" ,")) for line in found[1].splitlines()}
+
+
+def listed(name: str, section: str | None = None) -> set[str]:
+    """Return the packages of a list, or of the part of it under a heading."""
+    text = (LISTS / name).read_text()
+    if section is not None:
+        text = text[text.index(f"# {section}") :].split("\n\n")[0]
+    return {line for line in text.splitlines() if line and not line.startswith("#")}
+
+
+def test_it_is_built_with_what_a_workspace_is_built_with() -> None:
+    ros2 = " | ".join(listed(f"packages-ros2-debian-{number}.txt").pop() for number in (12, 13))
+    maps = {name for name in listed("packages-maps.txt") if name.endswith("-dev")}
+    building = listed("packages.txt", "Building") - PROGRAMS_OF_WORKSPACES
+    assert field("Build-Depends") - TOOLS == building | maps | {ros2}
+
+
+def test_its_program_explains_itself() -> None:
+    run = subprocess.run([REPOSITORY / "scripts" / "package", "--help"], capture_output=True, text=True, check=True)
+    assert run.stdout.startswith("usage: scripts/package [FOLDER]")
+
+
+@pytest.mark.parametrize("arguments", [["--bogus"], ["a", "b"]])
+def test_bad_usage_is_explained(arguments: list[str]) -> None:
+    run = subprocess.run([REPOSITORY / "scripts" / "package", *arguments], capture_output=True, text=True, check=False)
+    assert (run.returncode, run.stderr[:6]) == (2, "usage:")
