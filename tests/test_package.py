@@ -10,7 +10,7 @@ from ros_support import REPOSITORY
 
 CONTROL = (REPOSITORY / "debian" / "control").read_text()
 LISTS = REPOSITORY / "scripts" / "environment"
-TOOLS = {"debhelper-compat", "dh-python", "catkin", "python3-venv"}  # of packaging alone, or which catkin-tools brings
+TOOLS = {"debhelper-compat", "dh-python", "catkin", "python3-venv", "python3-numpy"}  # of packaging, or of running
 PROGRAMS_OF_WORKSPACES = {"catkin-tools"}
 
 

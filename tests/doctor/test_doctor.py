@@ -57,6 +57,14 @@ def test_an_address_that_is_none_is_a_problem(terminal: dict[str, str], uri: str
     )
 
 
+def test_without_an_address_ros_uses_the_usual_one(terminal: dict[str, str]) -> None:
+    """As on a machine with a package, where no setup.bash is sourced."""
+    del terminal["ROS_MASTER_URI"]
+    run = bubblesim("doctor", "ros", env=terminal)
+    assert "must have the form" not in run.stdout
+    assert "http://localhost:11311" in run.stdout
+
+
 def test_a_port_that_something_else_has_is_a_problem(terminal: dict[str, str]) -> None:
     with socket.create_server(("localhost", 0)) as other:  # accepts connections, but never answers
         port = other.getsockname()[1]

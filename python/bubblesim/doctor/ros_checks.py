@@ -32,7 +32,7 @@ def check_names() -> Iterator[Finding]:
 
 def check_master() -> Iterator[Finding]:
     """Check the master at ROS_MASTER_URI, its clock and its nodes."""
-    uri = os.environ.get("ROS_MASTER_URI", "")
+    uri = os.environ.get("ROS_MASTER_URI", "http://localhost:11311")
     parts = urllib.parse.urlsplit(uri)
     try:
         host, port = parts.hostname, parts.port

@@ -8,7 +8,8 @@ namespace bubblesim {
 std::filesystem::path library_folder() {
   Dl_info info{};
   if (dladdr(reinterpret_cast<void*>(&library_folder), &info) == 0 || info.dli_fname == nullptr) return {};
-  return std::filesystem::absolute(info.dli_fname).parent_path();
+  // /lib is a link to /usr/lib, where the data of an installed package is.
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(info.dli_fname).parent_path());
 }
 
 }  // namespace bubblesim
