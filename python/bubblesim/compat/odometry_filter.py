@@ -25,6 +25,7 @@ from bubblesim.nodes.run_node import run_node
 
 _YAW_RATE = 11  # its index in a configuration of robot_localization
 _LONGEST = 1.0  # s between messages over which velocities are integrated; s that odometry waits for the IMU
+_MOST_READINGS = 10_000  # of an IMU, without odometry: 50 s at 200 Hz
 _KNOWN = ("odom0", "imu0", "odom0_config", "imu0_config")
 
 
@@ -52,7 +53,7 @@ class YawRate:
     def __init__(self) -> None:
         """Know no rate until the first message."""
         self._latest: float | None = None  # s
-        self._readings: deque[tuple[float, float]] = deque()  # s, rad/s; not yet integrated
+        self._readings: deque[tuple[float, float]] = deque(maxlen=_MOST_READINGS)  # s, rad/s
         self._integrated: float | None = None  # s
         self.rate = 0.0  # rad/s, the last one integrated
 
