@@ -77,6 +77,13 @@ class Guarded {
     scope_.def_property_readonly(name, holding(getter), extra...);
     return *this;
   }
+  /// A property whose value must not outlive its object: pybind11 ignores keep_alive beside a getter.
+  template <class Getter>
+  Guarded& def_part(const char* name, Getter getter, const char* description) {
+    scope_.def_property_readonly(name, pybind11::cpp_function(holding(getter), pybind11::keep_alive<0, 1>()),
+                                 description);
+    return *this;
+  }
   template <class Getter, class Setter, class... Extra>
   Guarded& def_property(const char* name, Getter getter, Setter setter, const Extra&... extra) {
     scope_.def_property(name, holding(getter), holding(setter), extra...);

@@ -5,6 +5,7 @@ import gc
 import subprocess
 import threading
 import time
+import weakref
 from pathlib import Path
 
 import numpy as np
@@ -147,6 +148,15 @@ def test_objects_outlive_the_name_of_their_simulation() -> None:
     gc.collect()
     np.testing.assert_allclose(ball.position, [-1.5, 0, 0.4])
     assert world.path(world.find("/Ball")) == "/Ball"
+
+
+def test_the_wind_keeps_its_simulation() -> None:
+    simulation = bubblesim.Simulation("ball")
+    reference, wind = weakref.ref(simulation), simulation.wind
+    del simulation
+    gc.collect()
+    assert reference() is not None
+    np.testing.assert_array_equal(wind.velocity, [0, 0, 0])
 
 
 @pytest.mark.parametrize(

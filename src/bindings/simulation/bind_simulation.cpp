@@ -352,12 +352,12 @@ They stand where the file has them, without a floor. Call it where `reset_world`
       .def_property_readonly(
           "plugins", [](const Simulation& s) { return s.scene().plugins; },
           "The PluginDescriptions of the world itself.")
-      .def_property_readonly(
+      .def_part(
           "wind",
           [](Simulation& s) {
             return Attached<Wind>{s.world(), s.wind()};
           },
-          py::keep_alive<0, 1>(), "The Wind of the simulation.")
+          "The Wind of the simulation.")
       .def(
           "set_color",
           [](Simulation& s, ObjectId object, const std::array<float, 3>& rgb) {
