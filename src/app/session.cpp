@@ -48,9 +48,10 @@ RunnerOptions runner_options(const Options& options, const ScriptCounts& counts,
   return how;
 }
 
-/// The guard is there for scripts. Python itself may take longer to start, on a slow machine.
-void start_python(Node& node) {
-  node.python = std::make_unique<PythonEngine>();
+/// From here on, a signal ends scripts that do not return. Not earlier: Python and its modules load for longer than a
+/// script may take, on a slow machine.
+void guard_scripts(Node& node) {
+  if (node.guard) return;
   node.guard = std::make_unique<StopGuard>(&interrupt_scripts, [&bridges = node.bridges] {
     for (const auto& bridge : bridges) bridge->leave();
   });
@@ -118,7 +119,7 @@ Session::Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_fir
     simulation_->add(*ros_.back());
     bridges.push_back(bridge.get());
   }
-  if (!node.python) start_python(node);
+  if (!node.python) node.python = std::make_unique<PythonEngine>();
   PythonEngine& python = *node.python;
   python.begin(runner_, bridges);
   if (with_ros && (!options.record.empty() || !options.lockstep.empty())) {
@@ -136,6 +137,7 @@ Session::Session(Node& node, std::unique_ptr<Simulation> simulation, bool is_fir
                     options.python_of_foreign_scenes};
   if (is_first) node.first_scene = simulation_->scene().file;
   if (simulation_->scene().file == node.first_scene) how.replacements = options.child_scripts;  // they name its objects
+  guard_scripts(node);
   scripts_ = std::make_unique<ChildScripts>(python, how);
   simulation_->add(*scripts_);
   if (with_ros) {
