@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from ros_peer import Message, Peer
+from ros_peer import Message, Messages, Peer
 from ros_support import RosCore, start, stop, wait_until
 
 PERIOD = 0.02  # s between messages
@@ -48,7 +48,7 @@ def node(roscore: RosCore) -> Iterator[str]:
 
 def test_a_node_that_is_late_loses_no_message(roscore: RosCore, peer: Peer, node: str) -> None:
     """Stopped while a robot drives 1 m ahead, turns by 1 rad, drives 1 m again and stands: more than it had queued."""
-    peer.received("/odometry/filtered", "nav_msgs/Odometry")
+    filtered = Messages(peer, "/odometry/filtered", "nav_msgs/Odometry")
     time = 10.0
 
     def move(seconds: float, forward: float, yaw_rate: float) -> None:
@@ -74,9 +74,7 @@ def test_a_node_that_is_late_loses_no_message(roscore: RosCore, peer: Peer, node
     finally:
         os.kill(pid, signal.SIGCONT)
     last = time - 1.5 * PERIOD  # at 30 Hz it publishes every other message
-    filtered = peer.received("/odometry/filtered")
-    wait_until(lambda: peer.received("/odometry/filtered")[-1]["header"]["stamp"] > last, "the last message")
-    pose = filtered[-1]["pose"]["pose"]
+    pose = filtered.next(lambda message: message["header"]["stamp"] > last, "the last message")["pose"]["pose"]
     assert pose["position"]["x"] == pytest.approx(1.0 + math.cos(1.0), abs=1e-6)
     assert pose["position"]["y"] == pytest.approx(math.sin(1.0), abs=1e-6)
     assert 2 * math.atan2(pose["orientation"]["z"], pose["orientation"]["w"]) == pytest.approx(1.0, abs=1e-6)

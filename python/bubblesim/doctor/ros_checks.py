@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from bubblesim.doctor.finding import Finding, ok, problem, warning
+from bubblesim.program.addresses import master_uri
 from bubblesim.program.simulators import simulators
 
 _CALLER = "/bubblesim_doctor"
@@ -32,7 +33,7 @@ def check_names() -> Iterator[Finding]:
 
 def check_master() -> Iterator[Finding]:
     """Check the master at ROS_MASTER_URI, its clock and its nodes."""
-    uri = os.environ.get("ROS_MASTER_URI", "http://localhost:11311")
+    uri = master_uri()
     parts = urllib.parse.urlsplit(uri)
     try:
         host, port = parts.hostname, parts.port

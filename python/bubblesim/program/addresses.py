@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import ipaddress
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -18,12 +18,17 @@ def is_loopback(address: str) -> bool:
         return False
 
 
+def master_uri(environment: Mapping[str, str] = os.environ) -> str:
+    """Return the address of the ROS master of an environment: the usual one if ROS_MASTER_URI is not set, as in ROS."""
+    return environment.get("ROS_MASTER_URI", "http://localhost:11311")
+
+
 def stay_on_this_machine(arguments: Sequence[str]) -> None:
     """Let a ROS node of this process listen on loopback only, if its master does and no address was chosen.
 
     :param arguments: of the command line, which may choose one (``__hostname:=``, ``__ip:=``) and the master.
     """
-    master = os.environ.get("ROS_MASTER_URI", "http://localhost:11311")
+    master = master_uri()
     for argument in arguments:
         master = argument.removeprefix("__master:=") if argument.startswith("__master:=") else master
     chosen = any(os.environ.get(name) for name in ("ROS_HOSTNAME", "ROS_IP")) or any(

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from bubblesim.program.addresses import ports_of
+from bubblesim.program.addresses import master_uri, ports_of
 
 _NODE = "sim"
 
@@ -60,7 +60,7 @@ def _run_of(folder: Path) -> OwnRun:
         next((argument for argument in arguments if argument[:1] != "-" and ":=" not in argument), ""),
         float(status["VmRSS"].split()[0]) / 1000.0,
         uptime - started,
-        environment.get("ROS_MASTER_URI", "http://localhost:11311") if "1" in versions else "",
+        master_uri(environment) if "1" in versions else "",
         environment.get("ROS_DOMAIN_ID", "0") if "2" in versions else "",
         next((port for child in _windows_of(process) for port in ports_of(child)), None),
     )

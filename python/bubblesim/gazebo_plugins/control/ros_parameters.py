@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 import math
-import os
 import xmlrpc.client
 from collections.abc import Mapping
 from typing import Any
+
+from bubblesim.program.addresses import master_uri
 
 _TIMEOUT = 5.0  # s for the answer of the master
 _SUCCESS = 1
@@ -29,7 +30,7 @@ def read_parameter(name: str) -> Any:
 
     :raises ControllerError: if the parameter server does not answer.
     """
-    uri = os.environ.get("ROS_MASTER_URI", "http://localhost:11311")
+    uri = master_uri()
     try:
         with xmlrpc.client.ServerProxy(uri, transport=_Transport()) as master:
             answer: Any = master.getParam("/gazebo_ros_control", name)
