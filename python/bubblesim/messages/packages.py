@@ -13,12 +13,13 @@ from pathlib import Path
 
 from catkin_pkg.packages import find_package_paths  # type: ignore[import-untyped]
 
+from bubblesim.messages.action_messages import action_of
 from bubblesim.messages.definition_texts import class_definition, header_definition
 
 
 @dataclass(frozen=True)
 class Definition:
-    """The text of one .msg or .srv file, and the file."""
+    """The text of a message, service or action, and the file that it is from."""
 
     text: str
     file: Path
@@ -54,13 +55,15 @@ class PackageIndex:
                 self.add(definitions.parent.name, definitions.parent)
 
     def find(self, name: str, kind: str) -> Definition | None:
-        """Return the definition of `package/Type`; kind is "msg" or "srv"."""
+        """Return the definition of `package/Type`; kind is "msg", "srv" or "action"."""
         package, _, short = name.partition("/")
         for folder in self.folders.get(package, []):
             file = folder / kind / f"{short}.{kind}"
             if file.is_file():
                 # Comments may have any encoding, and the checksum is computed from the original bytes.
                 return Definition(file.read_text(encoding="utf-8", errors="surrogateescape"), file)
+            if kind == "msg" and (of_action := action_of(short, folder / "action")):
+                return Definition(*of_action)
         return self._find_in_generated(package, short, kind)
 
     def names(self, kind: str) -> list[str]:
