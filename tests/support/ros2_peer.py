@@ -101,7 +101,8 @@ class Ros2Peer(PeerProcess):
         if topic not in self._subscribed:
             self._subscribed.add(topic)
             self._send(do="subscribe", topic=topic, type=message_type, qos=qos)
-        self._take_in()
+        else:  # a message of a transient local publisher may have come: it is after the call, too
+            self._take_in()
         return self._received.setdefault(topic, [])
 
     def next(self, topic: str, message_type: str = "", *, count: int = 1, **qos: Any) -> Message:

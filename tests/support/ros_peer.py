@@ -32,7 +32,8 @@ class Peer(PeerProcess):
         if topic not in self._subscribed:
             self._subscribed.add(topic)
             self._send(do="subscribe", topic=topic, type=message_type)
-        self._take_in()
+        else:  # a latched message may have come: it is after the call, too
+            self._take_in()
         return self._received.setdefault(topic, [])
 
     def next(self, topic: str, message_type: str = "", *, count: int = 1) -> Message:
