@@ -2,6 +2,7 @@
 // Transmissions of URDF, kept as data for ros_control.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@ namespace bubblesim {
 
 struct TransmissionJoint {
   std::string name;
-  std::vector<std::string> hardware_interfaces;  ///< such as hardware_interface/EffortJointInterface
+  std::vector<std::string> hardware_interfaces;           ///< such as hardware_interface/EffortJointInterface
+  std::optional<double> initial_position = std::nullopt;  ///< rad or m, of the position's state in a <ros2_control>
 };
 
 struct TransmissionActuator {

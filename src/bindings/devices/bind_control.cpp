@@ -310,13 +310,15 @@ void bind_control(py::module_& core) {
       "transmissions",
       [](const World& world, ObjectId model) {
         const HoldWithGil hold(world.access());
-        using Joint = std::pair<std::string, std::vector<std::string>>;
+        using Joint = std::tuple<std::string, std::vector<std::string>, std::optional<double>>;
         std::vector<std::tuple<std::string, std::string, std::vector<Joint>, std::vector<std::string>>> all;
         for (const TransmissionDescription& each : world.models().description(model).transmissions) {
           auto& [name, type, joints, of_actuators] = all.emplace_back();
           name = each.name;
           type = each.type;
-          for (const TransmissionJoint& joint : each.joints) joints.emplace_back(joint.name, joint.hardware_interfaces);
+          for (const TransmissionJoint& joint : each.joints) {
+            joints.emplace_back(joint.name, joint.hardware_interfaces, joint.initial_position);
+          }
           for (const TransmissionActuator& actuator : each.actuators) {
             of_actuators.insert(of_actuators.end(), actuator.hardware_interfaces.begin(),
                                 actuator.hardware_interfaces.end());
@@ -325,7 +327,8 @@ void bind_control(py::module_& core) {
         return all;
       },
       py::arg("world"), py::arg("model"),
-      "Return the <transmission>s of a model: name, type, joints with their interfaces, interfaces of the actuators.");
+      "Return the <transmission>s of a model: name, type, joints with their interfaces "
+      "and initial positions, interfaces of the actuators.");
   bind_joint_controllers(module);
   bind_base_controllers(module);
   bind_trajectory_controller(module);

@@ -331,7 +331,8 @@ CART = """<robot name="cart">
   <joint name="swing" type="continuous"><parent link="cart"/><child link="pole"/><axis xyz="0 1 0"/></joint>
   <ros2_control name="GazeboSystem" type="system">
     <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
-    <joint name="slide"><command_interface name="position"/><state_interface name="position"/></joint>
+    <joint name="slide"><command_interface name="position"/>
+      <state_interface name="position"><param name="initial_value">-0.5</param></state_interface></joint>
     <joint name="swing"><state_interface name="position"/></joint>
   </ros2_control>
   <gazebo><plugin filename="libgz_ros2_control-system.so" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
@@ -349,14 +350,15 @@ def test_joints_in_a_ros2_control_element_are_controlled_too(node: Arm) -> None:
     assert node.call("/gazebo/spawn_urdf_model", model_name="cart", model_xml=CART, robot_namespace="/cart")["success"]
     manager = "/cart/controller_manager"
     wait_until(lambda: f"{manager}/unload_controller" in node.core.state()["services"], "the manager")
+
+    def position() -> float:
+        return float(node.call("/gazebo/get_joint_properties", joint_name="cart::slide")["position"][0])
+
+    assert position() == pytest.approx(-0.5, abs=1e-3)  # its initial value
     for name in ("slider", "states"):
         assert node.call(f"{manager}/load_controller", name=name)["ok"]
     assert node.call(f"{manager}/switch_controller", start_controllers=["slider", "states"], strictness=STRICT)["ok"]
     with node.publish("/cart/slider/command", "std_msgs/Float64", "data: 0.7"):
-
-        def position() -> float:
-            return float(node.call("/gazebo/get_joint_properties", joint_name="cart::slide")["position"][0])
-
         wait_until(lambda: abs(position() - 0.7) < 1e-3, "the position")
     assert "name: \n  - slide\n  - swing\n" in node.core.run("rostopic", "echo", "-n", "1", "/cart/joint_states")
     assert node.call("/gazebo/delete_model", model_name="cart")["success"]

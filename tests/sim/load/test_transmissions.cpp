@@ -51,6 +51,28 @@ TEST(Ros2Control, GivesItsJointsTheInterfacesOfTheirCommands) {
   EXPECT_TRUE(system.joints[1].hardware_interfaces.empty());
 }
 
+TEST(Ros2Control, StatesWhereAJointBegins) {
+  const ModelDescription robot = robot_with(
+      "<ros2_control name='s'><joint name='slide'><state_interface name='velocity'><param "
+      "name='initial_value'>3</param>"
+      "</state_interface><state_interface name='position'><param name='initial_value'> 0.25 </param></state_interface>"
+      "</joint><joint name='swing'><state_interface name='position'/></joint></ros2_control>");
+  const std::vector<TransmissionJoint>& joints = robot.transmissions.at(0).joints;
+  EXPECT_EQ(joints.at(0).initial_position, 0.25);
+  EXPECT_FALSE(joints.at(1).initial_position.has_value());
+}
+
+TEST(Ros2Control, RefusesAnInitialValueThatIsNoNumber) {
+  LoadContext context("r.urdf", ".");
+  const XmlElement root = parse_xml(
+      "<robot name='r'><link name='a'/><ros2_control name='s'><joint name='j'><state_interface name='position'>"
+      "<param name='initial_value'>up</param></state_interface></joint></ros2_control></robot>",
+      "r.urdf", context.warnings());
+  EXPECT_FALSE(read_robot(root, context).transmissions.at(0).joints.at(0).initial_position.has_value());
+  ASSERT_EQ(context.problems().size(), 1U);
+  EXPECT_NE(context.problems()[0].message.find("up"), std::string::npos);
+}
+
 TEST(Ros2Control, WarnsOfACommandInterfaceThatIsUnknown) {
   LoadContext context("r.urdf", ".");
   const XmlElement root = parse_xml(

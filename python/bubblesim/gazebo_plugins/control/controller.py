@@ -35,6 +35,7 @@ class Joint:
     index: int  # among the manager's joints
     handle: int
     kinds: Sequence[str]  # "position", "velocity" or "effort", of its transmissions
+    initial_position: float | None = None  # rad or m; None: that of the model
 
 
 @dataclass(frozen=True)

@@ -43,7 +43,7 @@ class RosControl(Plugin):
         if not hasattr(self.bridge, "search_parameter"):
             raise p.fail("filename", "needs ROS 1, which has a parameter server")
         namespace = f"/{self.namespace}"
-        joints = self._joints()
+        self._joints = joints = self._read_joints()
         if not joints:
             write_line(sys.stderr, f"warning: {p.title}: the model has no <transmission> of a joint")
         gains = self._gains(namespace)
@@ -51,6 +51,7 @@ class RosControl(Plugin):
             (name, joint.handle, INTERFACES[joint.kinds[0] if joint.kinds else "effort"], gains.get(name))
             for name, joint in joints.items()
         ]
+        self._place()
         manager = control.ControllerManager(self.world, context.model, entries)
         context.endpoints.append(manager.remove)
         robot = Robot(
@@ -64,15 +65,21 @@ class RosControl(Plugin):
         self._controllers.publish()
 
     def reset(self) -> None:
-        """Reset the controllers."""
+        """Put the joints to their initial positions, and reset the controllers."""
+        self._place()
         self._controllers.reset()
 
-    def _joints(self) -> dict[str, Joint]:
+    def _place(self) -> None:
+        for joint in self._joints.values():
+            if joint.initial_position is not None:
+                self.world.set_joint_position(joint.handle, joint.initial_position)
+
+    def _read_joints(self) -> dict[str, Joint]:
         """Return the joints of the transmissions; those of <ros2_control> may have states only."""
         handles = {self.world.name(part): part for part in self.parts_of_model() if self.world.kind(part) == "joint"}
         found: dict[str, Joint] = {}
         for transmission, kind, joints, of_actuators in control.transmissions(self.world, self.context.model):
-            for name, interfaces in joints:
+            for name, interfaces, initial_position in joints:
                 kinds = [
                     _KINDS[last] for each in interfaces or of_actuators if (last := each.rpartition("/")[2]) in _KINDS
                 ]
@@ -90,7 +97,7 @@ class RosControl(Plugin):
                 before = found.get(name)
                 index = len(found) if before is None else before.index
                 known = [] if before is None else list(before.kinds)
-                found[name] = Joint(index, handles[name], list(dict.fromkeys([*known, *kinds])))
+                found[name] = Joint(index, handles[name], list(dict.fromkeys([*known, *kinds])), initial_position)
         return found
 
     def _gains(self, namespace: str) -> dict[str, control.PidGains]:

@@ -95,6 +95,9 @@ class PartReader {
       if (child.name != "joint") continue;
       TransmissionJoint joint{child.given_name(), {}};
       for (const XmlElement& interface : child.children) {
+        if (interface.name == "state_interface" && interface.given_name() == "position") {
+          joint.initial_position = initial_value(interface, path_ + "/" + system.name + "/" + joint.name);
+        }
         if (interface.name != "command_interface") continue;
         std::string kind = interface.given_name();
         if (kind != "position" && kind != "velocity" && kind != "effort") {
@@ -234,10 +237,21 @@ class PartReader {
   }
 
   double read_reduction(const XmlElement* element, const std::string& path) {
-    if (element == nullptr) return 1;
-    XmlElement value = *element;
-    value.set_attribute("value", element->text);
-    return number_in(value, "value", path, context_).value_or(1);
+    return element == nullptr ? 1 : number_of(*element, path).value_or(1);
+  }
+
+  /// The <param name="initial_value"> of an interface.
+  std::optional<double> initial_value(const XmlElement& interface, const std::string& path) {
+    for (const XmlElement& child : interface.children) {
+      if (child.name == "param" && child.given_name() == "initial_value") return number_of(child, path);
+    }
+    return {};
+  }
+
+  /// The content of an element.
+  std::optional<double> number_of(XmlElement element, const std::string& path) {
+    element.set_attribute("value", element.text);
+    return number_in(element, "value", path, context_);
   }
 
   std::string path_;
