@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
+#include <utility>
 
 namespace bubblesim {
 namespace {
@@ -26,15 +28,6 @@ double real_time_factor(const RunReport& report) {
 }
 
 }  // namespace
-
-void Diagnosis::merge(Level other, const std::string& text) {
-  if (level > kOk && other > kOk) {
-    message += "; " + text;
-  } else if (other > level) {
-    message = text;
-  }
-  level = std::max<int>(level, other);
-}
 
 Diagnosis RunDiagnosis::judge(const RunReport& report) {
   const double factor = real_time_factor(report);

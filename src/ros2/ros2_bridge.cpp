@@ -81,8 +81,9 @@ struct Ros2Bridge::Impl {
   ros2::NodeAnnouncement announcement{participant, names.node_namespace(), names.node(), environment.gid_size};
   ros2::Rosout rosout{participant, names.node()};
   ros2::NodeParameters parameters{names.full_node(), names.parameters()};
-  ros2::Inbox inbox{arrivals};
-  ros2::Topics topics{participant, inbox};
+  ros2::Traffic traffic;
+  ros2::Inbox inbox{arrivals, traffic};
+  ros2::Topics topics{participant, inbox, traffic};
   std::unique_ptr<StepService> step_service;  // before the services, which use its queue
   ros2::Services services{participant, guard, arrivals, rosout, options.is_ending};
   EndpointId clock = 0;
@@ -109,7 +110,8 @@ Ros2Bridge::Impl::Impl(int& argc, char** argv, NodeBridgeOptions bridge_options)
   const MessageType* const report =
       messages::find_message("diagnostic_msgs/DiagnosticArray", messages::RosVersion::kRos2);
   if (options.take_report && report != nullptr) {  // it may have been taken off meta/messages.txt
-    diagnostics = std::make_unique<ros2::Diagnostics>(participant, *report, names.node(), options.take_report);
+    diagnostics = std::make_unique<ros2::Diagnostics>(participant, *report, names.node(), options.take_report,
+                                                      [this] { return traffic.take_report(); });
   }
   first_of_scenes = next_id;
   announcement.update();

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Actions of scripts with nodes of ROS 2, both ways."""
+"""Actions of scripts with nodes of ROS 2, of Jazzy and of Kilted, both ways."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from node_support import Node, run_sim, write
-from ros2_peer import Domain, Ros2Peer
+from ros2_peer import KILTED_PEERS, PEERS, Domain, Ros2Peer
 from ros_support import RosCore, wait_until
 
 FIBONACCI = "test_msgs/action/Fibonacci"
@@ -21,6 +22,12 @@ def packages(tmp_path: Path) -> Path:
     (package / "package.xml").write_text("<package><name>test_msgs</name></package>")
     (package / "action" / "Fibonacci.action").write_text("int32 order\n---\nint32[] sequence\n---\nint32[] sequence\n")
     return package.parent
+
+
+@pytest.fixture(params=[PEERS, KILTED_PEERS], ids=["jazzy", "kilted"])
+def peer(request: pytest.FixtureRequest, ros2_domain: Domain, tmp_path: Path) -> Iterator[Ros2Peer]:
+    with Ros2Peer(ros2_domain, tmp_path / "peer.log", peers=request.param) as peer:
+        yield peer
 
 
 def node_with(domain: Domain, packages: Path, folder: Path, script: str) -> Node:
@@ -60,28 +67,24 @@ SERVER = """
 """
 
 
-def test_ros2_sends_goals_to_a_script(ros2_domain: Domain, ros2_peer: Ros2Peer, packages: Path, tmp_path: Path) -> None:
+def test_ros2_sends_goals_to_a_script(ros2_domain: Domain, peer: Ros2Peer, packages: Path, tmp_path: Path) -> None:
     with node_with(ros2_domain, packages, tmp_path, SERVER):
-        assert ros2_peer.send_goal("/count", FIBONACCI, order=6)
-        assert ros2_peer.result() == {"status": SUCCEEDED, "result": {"sequence": [0, 1, 1, 2, 3, 5]}}
-        assert ros2_peer.reported("feedback")[-1] == {"sequence": [0, 1, 1, 2, 3, 5]}
-        assert not ros2_peer.send_goal("/count", FIBONACCI, order=-1)
-        assert ros2_peer.send_goal("/count", FIBONACCI, order=7)
-        assert ros2_peer.result()["status"] == ABORTED
+        assert peer.send_goal("/count", FIBONACCI, order=6)
+        assert peer.result() == {"status": SUCCEEDED, "result": {"sequence": [0, 1, 1, 2, 3, 5]}}
+        assert peer.reported("feedback")[-1] == {"sequence": [0, 1, 1, 2, 3, 5]}
+        assert not peer.send_goal("/count", FIBONACCI, order=-1)
+        assert peer.send_goal("/count", FIBONACCI, order=7)
+        assert peer.result()["status"] == ABORTED
 
 
-def test_ros2_cancels_a_goal_of_a_script(
-    ros2_domain: Domain, ros2_peer: Ros2Peer, packages: Path, tmp_path: Path
-) -> None:
+def test_ros2_cancels_a_goal_of_a_script(ros2_domain: Domain, peer: Ros2Peer, packages: Path, tmp_path: Path) -> None:
     with node_with(ros2_domain, packages, tmp_path, SERVER):
-        assert ros2_peer.send_goal("/count", FIBONACCI, order=99)
-        assert ros2_peer.cancel_goal() == {"code": 1, "goals": 0}  # the script rejects it
-        assert ros2_peer.send_goal("/count", FIBONACCI, order=1000)
-        assert ros2_peer.cancel_goal() == {"code": 0, "goals": 1}
-        assert ros2_peer.result()["status"] in (CANCELED, SUCCEEDED)
-        status = ros2_peer.next(
-            "/count/_action/status", "action_msgs/msg/GoalStatusArray", transient_local=True, depth=1
-        )
+        assert peer.send_goal("/count", FIBONACCI, order=99)
+        assert peer.cancel_goal() == {"code": 1, "goals": 0}  # the script rejects it
+        assert peer.send_goal("/count", FIBONACCI, order=1000)
+        assert peer.cancel_goal() == {"code": 0, "goals": 1}
+        assert peer.result()["status"] in (CANCELED, SUCCEEDED)
+        status = peer.next("/count/_action/status", "action_msgs/msg/GoalStatusArray", transient_local=True, depth=1)
         assert CANCELED in [each["status"] for each in status["status_list"]]
 
 
@@ -113,9 +116,9 @@ CLIENT = """
 """
 
 
-def test_a_script_sends_goals_to_ros2(ros2_domain: Domain, ros2_peer: Ros2Peer, packages: Path, tmp_path: Path) -> None:
+def test_a_script_sends_goals_to_ros2(ros2_domain: Domain, peer: Ros2Peer, packages: Path, tmp_path: Path) -> None:
     with node_with(ros2_domain, packages, tmp_path, CLIENT) as node:
-        ros2_peer.act("/count")  # after the goal was sent: it waits for the server
+        peer.act("/count")  # after the goal was sent: it waits for the server
         node.wait_for_output("result 4 [0, 1, 1, 2, 3]")
         node.wait_for_output("rejected")
         node.wait_for_output("result 5 [0, 1, 1, 2, 3]")

@@ -12,7 +12,7 @@ from bubblesim import _core
 from bubblesim.messages.packages import PackageIndex
 from bubblesim.messages.ros2_definitions import read_parts
 from bubblesim.messages.ros2_hashes import message_hash, service_hash
-from bubblesim.messages.ros2_specs import Ros2Specs
+from bubblesim.messages.ros2_specs import Ros2Specs, own_definitions
 from ros2_peer import PEERS, Ros2Peer, has_ros2
 
 codec = _core.messages
@@ -71,7 +71,7 @@ def test_the_types_of_this_build_have_ros2s_hashes(golden: dict[str, str]) -> No
 def test_the_parts_of_actions_have_ros2s_hashes(golden: dict[str, str], action: str) -> None:
     index = PackageIndex()
     index.add_share(SHARE)
-    specs = Ros2Specs(index)
+    specs = Ros2Specs(index, own_definitions(before_iron=False))
     base = specs.load_action(action)
     messages = {message.full_name: specs.message_hash(message) for message in specs.messages.values()}
     services = {name: specs.service_hash(name) for name in specs.services}

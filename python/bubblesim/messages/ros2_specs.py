@@ -7,7 +7,6 @@ those of Humble in ``ros2_before_iron/``.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,17 +17,14 @@ from bubblesim.messages.ros2_hashes import message_hash, service_hash
 from bubblesim.messages.specs import SpecError
 
 _ONLY_ROS1 = {"std_msgs/Time", "std_msgs/Duration", "rosgraph_msgs/Log", "rosgraph_msgs/TopicStatistics"}
-_BEFORE_IRON = {"humble", "galactic", "foxy"}
 _ACTION_PARTS = ("Action", "ActionGoal", "ActionResult", "ActionFeedback", "Goal", "Result", "Feedback")
 
 
-def own_definitions(*, before_iron: bool | None = None) -> PackageIndex:
+def own_definitions(*, before_iron: bool) -> PackageIndex:
     """Return the index of the types that ROS 1 does not have, or has with other fields.
 
-    before_iron: as in the distributions of ROS 2 before Iron; by default, if ROS_DISTRO names one.
+    before_iron: as in the distributions of ROS 2 before Iron.
     """
-    if before_iron is None:
-        before_iron = os.environ.get("ROS_DISTRO") in _BEFORE_IRON
     index = definitions_before_iron() if before_iron else PackageIndex()
     index.add_share(Path(__file__).parent / "ros2")
     return index
@@ -54,7 +50,7 @@ class Ros2Specs:
     """The loaded types."""
 
     index: PackageIndex  # of ROS 1's definitions
-    own: PackageIndex = field(default_factory=own_definitions)
+    own: PackageIndex  # of own_definitions()
     messages: dict[str, Ros2Message] = field(default_factory=dict)  # by name, after their nested types
     services: dict[str, tuple[Ros2Message, Ros2Message]] = field(default_factory=dict)  # request, response
     files: set[Path] = field(default_factory=set)

@@ -15,10 +15,10 @@ from bubblesim import _core
 from bubblesim._core.messages import RosVersion
 from bubblesim.messages.kinds import KINDS, has_header
 from bubblesim.messages.names import did_you_mean, nearest_names, type_name
-from bubblesim.messages.packages import machine_index
+from bubblesim.messages.packages import PackageIndex, machine_index
 from bubblesim.messages.ros2_definitions import KINDS as ROS2_KINDS
 from bubblesim.messages.ros2_definitions import Ros2Message
-from bubblesim.messages.ros2_specs import Ros2Specs
+from bubblesim.messages.ros2_specs import Ros2Specs, own_definitions
 from bubblesim.messages.specs import SpecError, Specs
 
 _lock = threading.Lock()
@@ -48,7 +48,7 @@ def add_action(given_name: str) -> str:
     base = name.replace("/", "/action/")
     if ("action", name) in _added:
         return base
-    specs = Ros2Specs(machine_index())
+    specs = _ros2_specs(machine_index())
     try:
         specs.load_action(name)
     except SpecError as error:
@@ -61,6 +61,10 @@ def add_action(given_name: str) -> str:
     return base
 
 
+def _ros2_specs(index: PackageIndex) -> Ros2Specs:
+    return Ros2Specs(index, own_definitions(before_iron=_core.messages.ros2_is_before_iron()))
+
+
 def _add(given_name: str, kind: str, version: _core.messages.RosVersion) -> None:
     specs = Specs(machine_index())
     name = type_name(given_name)
@@ -69,7 +73,7 @@ def _add(given_name: str, kind: str, version: _core.messages.RosVersion) -> None
         expected = f"expected package/Type such as geometry_msgs/Twist{hint}"
         raise _core.MessageError(f"'{given_name}' is not a type name, {expected}")
     if version == _core.messages.RosVersion.ROS2:
-        _add_of_ros2(Ros2Specs(specs.index), name, kind)
+        _add_of_ros2(_ros2_specs(specs.index), name, kind)
         return
     if kind == "msg" and not specs.index.find(name, "msg") and (service := _service_of_half(specs, name)):
         name, kind = service, "srv"

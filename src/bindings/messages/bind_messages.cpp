@@ -132,6 +132,8 @@ void bind_messages(py::module_& core) {
   m.def("message_names", &messages::message_names, version,
         "Return all listed types, sorted, including those that only occur in others.");
   m.def("service_names", &messages::service_names, version, "Return all listed service types, sorted.");
+  m.def("ros2_is_before_iron", &messages::ros2_is_before_iron,
+        "Return whether ROS_DISTRO names a distribution of ROS 2 before Iron: a few types had other fields then.");
   m.def(
       "type_hash", [](const std::string& name, RosVersion of) { return listed_message(name, of).type_hash; },
       py::arg("type_name"), version, "Return the MD5 of a type of ROS 1, or the RIHS01 hash of one of ROS 2.");

@@ -34,9 +34,6 @@ class Diagnostics {
   using Clock = std::chrono::steady_clock;
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
-  void report_simulation(Status& status);
-  void report_topics(Status& status);
-
   const std::function<RunReport()> take_report_;
   std::unique_ptr<diagnostic_updater::Updater> updater_;  // made late: its constructor calls the master
   TopicTraffic traffic_;

@@ -12,10 +12,10 @@ std::uint32_t number(XmlRpcValue& value) { return static_cast<std::uint32_t>(sta
 
 }  // namespace
 
-void TopicTraffic::count() {
-  just_dropped_.clear();
+const TrafficReport& TopicTraffic::take_report() {
+  report_.just_dropped.clear();
   XmlRpcValue stats = own_response("getBusStats");
-  if (stats.getType() != XmlRpcValue::TypeArray || stats.size() < 2) return;
+  if (stats.getType() != XmlRpcValue::TypeArray || stats.size() < 2) return report_;
   // [publications, subscriptions, ...], both [[topic, [connection, ...]], ...]; a publication's connection is [number,
   // bytes, bytes of messages, messages, ...], a subscription's [number, bytes, messages, dropped, ...].
   const auto read = [](XmlRpcValue& topics, bool outgoing) {
@@ -33,23 +33,24 @@ void TopicTraffic::count() {
     return counted;
   };
   // roscpp's counters wrap at 2^32 and restart with each connection.
-  const auto add = [this](const Counted& before, const Counted& now, Total& total) {
+  const auto add = [this](const Counted& before, const Counted& now, TrafficReport::Total& total) {
     for (const auto& [connection, counts] : now) {
       const auto found = before.find(connection);
       const Counts old = found == before.end() ? Counts() : found->second;
       total.bytes += counts.bytes - old.bytes;
       total.messages += counts.messages - old.messages;
       const std::uint32_t dropped = counts.dropped - old.dropped;
-      dropped_ += dropped;
-      if (dropped != 0) just_dropped_[connection.first] += dropped;
+      report_.dropped += dropped;
+      if (dropped != 0) report_.just_dropped[connection.first] += dropped;
     }
   };
   Counted outgoing = read(stats[0], true);
   Counted incoming = read(stats[1], false);
-  add(outgoing_, outgoing, sent_);
-  add(incoming_, incoming, received_);
+  add(outgoing_, outgoing, report_.sent);
+  add(incoming_, incoming, report_.received);
   outgoing_ = std::move(outgoing);
   incoming_ = std::move(incoming);
+  return report_;
 }
 
 }  // namespace bubblesim

@@ -6,26 +6,15 @@
 #include <string>
 #include <utility>
 
+#include "traffic_diagnosis.hpp"
+
 namespace bubblesim {
 
-/// Traffic on the node's topics since its start, from roscpp's counters of each connection.
+/// Counts the traffic on the node's topics, from roscpp's counters of each connection. Used by the master thread only.
 class TopicTraffic {
  public:
-  struct Total {
-    std::uint64_t messages = 0;
-    std::uint64_t bytes = 0;
-  };
-
-  /// Adds the traffic since the last call. Used by the master thread only.
-  void count();
-
-  const Total& sent() const { return sent_; }  ///< passed to roscpp's queues, once per connection
-  const Total& received() const { return received_; }
-  std::uint64_t dropped() const {
-    return dropped_;
-  }  ///< received, then replaced by newer ones in a full subscriber queue
-  /// By topic, the number dropped between the last two calls of count().
-  const std::map<std::string, std::uint64_t>& just_dropped() const { return just_dropped_; }
+  /// Sent is what was passed to roscpp's queues.
+  const TrafficReport& take_report();
 
  private:
   struct Counts {
@@ -36,10 +25,7 @@ class TopicTraffic {
   using Connection = std::pair<std::string, int>;  // topic, roscpp's number
   using Counted = std::map<Connection, Counts>;
 
-  Total sent_;
-  Total received_;
-  std::uint64_t dropped_ = 0;
-  std::map<std::string, std::uint64_t> just_dropped_;
+  TrafficReport report_;
   Counted outgoing_;  // roscpp's counters at the last count
   Counted incoming_;
 };

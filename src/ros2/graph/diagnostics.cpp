@@ -20,12 +20,25 @@ void put_now(messages::WireBuffer& message) {
   message.put(static_cast<std::uint32_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now - seconds).count()));
 }
 
+void put_status(const std::string& name, const Diagnosis& found, messages::WireBuffer& message) {
+  message.put(static_cast<std::uint8_t>(found.level));
+  message.put_string(name);
+  message.put_string(found.message);
+  message.put_string("bubblesim");  // hardware_id
+  message.put(static_cast<std::uint32_t>(found.values.size()));
+  for (const auto& [key, value] : found.values) {
+    message.put_string(key);
+    message.put_string(value);
+  }
+}
+
 }  // namespace
 
 Diagnostics::Diagnostics(Participant& participant, const messages::MessageType& type, std::string node,
-                         std::function<RunReport()> take_report)
+                         std::function<RunReport()> take_report, std::function<TrafficReport()> take_traffic)
     : node_(std::move(node)),
       take_report_(std::move(take_report)),
+      take_traffic_(std::move(take_traffic)),
       writer_(participant, message_topic("/diagnostics", type), messages::Qos(), nullptr),
       thread_(start_without_signals([this] { publish_each_second(); })) {}
 
@@ -50,21 +63,13 @@ void Diagnostics::publish_each_second() {
 
 void Diagnostics::publish() {
   const std::lock_guard lock(publishing_);
-  const Diagnosis found = diagnosis_.judge(take_report_());
   messages::WireBuffer message;
   message.begin(messages::Layout::kCdr);
   put_now(message);
   message.put_string("");         // frame_id
-  message.put(std::uint32_t{1});  // statuses
-  message.put(static_cast<std::uint8_t>(found.level));
-  message.put_string(node_ + ": Simulation");
-  message.put_string(found.message);
-  message.put_string("bubblesim");  // hardware_id
-  message.put(static_cast<std::uint32_t>(found.values.size()));
-  for (const auto& [name, value] : found.values) {
-    message.put_string(name);
-    message.put_string(value);
-  }
+  message.put(std::uint32_t{2});  // statuses
+  put_status(node_ + ": Simulation", diagnosis_.judge(take_report_()), message);
+  put_status(node_ + ": Topics", judge(take_traffic_()), message);
   write(*writer_, message);
 }
 

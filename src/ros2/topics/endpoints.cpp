@@ -30,9 +30,7 @@ PublisherEndpoint::PublisherEndpoint(std::string topic, const messages::MessageT
 
 PublisherEndpoint::~PublisherEndpoint() = default;
 
-void PublisherEndpoint::publish(messages::WireBuffer message) {
-  if (wants_messages()) write(**writer_, message);
-}
+void PublisherEndpoint::publish(messages::WireBuffer message) { write(**writer_, message); }
 
 void PublisherEndpoint::open(Participant& participant) {
   writer_ = std::make_unique<Writer>(participant, message_topic(topic_, type_), qos_, listener_.get());
@@ -73,6 +71,7 @@ class SubscriberEndpoint::Listener final : public dds::DataReaderListener {
 SubscriberEndpoint::SubscriberEndpoint(std::string topic, const messages::MessageType& type, const messages::Qos& qos,
                                        messages::MessageCallback callback, Inbox& inbox)
     : topic_(std::move(topic)), type_(type), qos_(qos), inbox_(inbox) {
+  mailbox_->topic = topic_;
   mailbox_->depth = qos.depth;
   mailbox_->callback = std::make_shared<messages::MessageCallback>(std::move(callback));
   listener_ = std::make_unique<Listener>(inbox_, mailbox_, publishers_, qos.ignore_own);

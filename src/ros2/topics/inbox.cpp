@@ -4,10 +4,12 @@
 namespace bubblesim::ros2 {
 
 void Inbox::add(const std::shared_ptr<Mailbox>& mailbox, std::vector<std::uint8_t> message) {
+  traffic_.note_received(message.size());
   {
     const std::lock_guard lock(mutex_);
     if (mailbox->depth != 0 && mailbox->messages.size() == mailbox->depth) {
       mailbox->messages.pop_front();
+      traffic_.note_dropped(mailbox->topic);
     } else {
       order_.push_back(mailbox);
     }

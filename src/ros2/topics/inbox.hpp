@@ -6,16 +6,19 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include "arrivals.hpp"
 #include "bubblesim/messages/bridge.hpp"
 #include "callback_guard.hpp"
+#include "topics/traffic.hpp"
 
 namespace bubblesim::ros2 {
 
 /// The messages of one subscriber that wait for the simulation's thread.
 struct Mailbox {
+  std::string topic;
   std::size_t depth = 0;                                ///< 0: no limit
   std::deque<std::vector<std::uint8_t>> messages;       ///< guarded by the inbox
   bool aside = false;                                   ///< of the simulation's thread: deliver nothing
@@ -25,7 +28,7 @@ struct Mailbox {
 /// The messages of all subscribers, in the order in which they arrived.
 class Inbox {
  public:
-  explicit Inbox(Arrivals& arrivals) : arrivals_(arrivals) {}
+  Inbox(Arrivals& arrivals, Traffic& traffic) : arrivals_(arrivals), traffic_(traffic) {}
 
   /// On any thread. Drops the oldest message of a full mailbox.
   void add(const std::shared_ptr<Mailbox>& mailbox, std::vector<std::uint8_t> message);
@@ -36,6 +39,7 @@ class Inbox {
 
  private:
   Arrivals& arrivals_;
+  Traffic& traffic_;
   mutable std::mutex mutex_;
   std::deque<std::shared_ptr<Mailbox>> order_;  // an entry for each message
 };

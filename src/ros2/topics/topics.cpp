@@ -43,7 +43,10 @@ const SubscriberEndpoint& Topics::subscriber(EndpointId id) const {
 }
 
 void Topics::publish(EndpointId publisher, messages::WireBuffer message) {
-  find_endpoint(endpoints_.publishers, publisher, "publisher")->second->publish(std::move(message));
+  PublisherEndpoint& endpoint = *find_endpoint(endpoints_.publishers, publisher, "publisher")->second;
+  if (!endpoint.wants_messages()) return;
+  traffic_.note_sent(message.size(), endpoint.subscribers());
+  endpoint.publish(std::move(message));
 }
 
 void Topics::shutdown_publisher(EndpointId publisher) {
