@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Times the publishing of messages by a script, on ROS 1 and on ROS 2, and by rclpy, each with one subscriber.
+"""Times the publishing of messages by a script, on ROS 1 and on ROS 2, by rclpy, and by Fast DDS alone.
+
+Each has one subscriber. rclpy and Fast DDS are timed after the script, in the same order of messages; Fast DDS gets
+ready bytes.
 
 Needs a build with ROS 2 and the tests' environment with rclpy (scripts/setup --with ros2 --with tests):
 
-    source scripts/environment/activate.bash && python3 benchmarks/ros2/publish.py
+    source scripts/environment/activate.bash && cmake --build .ws/build/bubblesim --target fast_dds_alone
+    python3 benchmarks/ros2/publish.py
 """
 
 from __future__ import annotations
@@ -18,10 +22,15 @@ import tempfile
 import time
 from pathlib import Path
 
+import numpy as np
+
+from bubblesim import _core
+
 ROOT = Path(__file__).resolve().parents[2]
 PEERS = ROOT / ".ws" / "ros2_peers" / "bin" / "python"
 DOMAIN = "87"
 ROUNDS = 300
+ALONE = ROOT / ".ws" / "build" / "bubblesim" / "benchmarks" / "ros2" / "fast_dds_alone"
 
 # By type: the message, as code that both sides understand; `np` is numpy.
 MESSAGES = {
@@ -29,6 +38,7 @@ MESSAGES = {
     "geometry_msgs/Twist": "{'linear': {'x': 1.0}, 'angular': {'z': 0.5}}",
     "sensor_msgs/LaserScan": "{'range_max': 10.0, 'ranges': np.ones(720, np.float32)}",
     "sensor_msgs/Image": "{'width': 640, 'height': 480, 'step': 1920, 'encoding': 'rgb8', 'data': PIXELS}",
+    "sensor_msgs/PointCloud2": "{'height': 1, 'width': 100000, 'point_step': 12, 'row_step': 1200000, 'data': POINTS}",
 }
 
 SCRIPT = """
@@ -37,6 +47,7 @@ import time
 import numpy as np
 
 PIXELS = np.zeros(640 * 480 * 3, np.uint8)
+POINTS = np.zeros(1200000, np.uint8)
 MESSAGES = {messages}
 
 def sysCall_init():
@@ -65,6 +76,7 @@ import rclpy
 from rclpy.node import Node
 
 PIXELS = np.zeros(640 * 480 * 3, np.uint8)
+POINTS = np.zeros(1200000, np.uint8)
 MESSAGES = {messages}
 
 def type_of(name):
@@ -83,7 +95,7 @@ rclpy.init()
 node = Node('benchmark_' + sys.argv[1])
 if sys.argv[1] == 'subscriber':
     for kind in MESSAGES:
-        for side in ('two', 'rclpy'):
+        for side in ('two', 'rclpy', 'dds'):
             node.create_subscription(type_of(kind), '/' + side + '/' + kind.split('/')[1], lambda message: None, 10)
     with contextlib.suppress(rclpy.executors.ExternalShutdownException):
         rclpy.spin(node)
@@ -119,6 +131,17 @@ def code(template: str, **more: object) -> str:
     return template.format(messages=messages, rounds=ROUNDS, **more)
 
 
+def ready_bytes(folder: Path) -> list[str]:
+    """Write the CDR of each message to a file; return the arguments for fast_dds_alone."""
+    values = {"np": np, "PIXELS": np.zeros(640 * 480 * 3, np.uint8), "POINTS": np.zeros(1200000, np.uint8)}
+    arguments = []
+    for kind, text in MESSAGES.items():
+        file = folder / kind.replace("/", "_")
+        file.write_bytes(_core.messages.encode_ros2(kind, eval(text, values)))
+        arguments.append(f"{kind}={file}")
+    return arguments
+
+
 def main() -> None:
     """Print a table of medians."""
     env = {**os.environ, "ROS_DOMAIN_ID": DOMAIN, "ROS_HOSTNAME": "localhost"}
@@ -143,10 +166,13 @@ def main() -> None:
         node = start("rosrun", "bubblesim", "sim", "ball", "--ros=both", f"--child-script=/Ball={script}", env=env)
         assert node.stdout is not None
         ours = next(json.loads(found[1]) for line in node.stdout if (found := re.search(r"times (\{.*\})", line)))
-        theirs = json.loads(start(str(PEERS), str(rclpy), "publisher", env=alone).communicate()[0])
-    print(f"{'median, us':24}{'ROS 1':>10}{'ROS 2':>10}{'rclpy':>10}")
+        rclpys = json.loads(start(str(PEERS), str(rclpy), "publisher", env=alone).communicate()[0])
+        written = start(str(ALONE), str(ROUNDS), *ready_bytes(Path(folder)), env=env).communicate()[0]
+    alone_times = {kind: float(time) for kind, time in map(str.split, written.splitlines())}
+    print(f"{'median, us':24}{'ROS 1':>10}{'ROS 2':>10}{'rclpy':>10}{'Fast DDS':>10}{'ratio':>8}")
     for kind in MESSAGES:
-        print(f"{kind:24}{ours[f'ROS 1 {kind}']:10.1f}{ours[f'ROS 2 {kind}']:10.1f}{theirs[kind]:10.1f}")
+        one, two, dds = ours[f"ROS 1 {kind}"], ours[f"ROS 2 {kind}"], alone_times[kind]
+        print(f"{kind:24}{one:10.1f}{two:10.1f}{rclpys[kind]:10.1f}{dds:10.1f}{two / dds:8.2f}")
 
 
 if __name__ == "__main__":
