@@ -22,7 +22,7 @@ import pytest
 from node_support import run_script, run_sim, without_slowness, write
 from ros_support import DEADLINE, REPOSITORY, RosCore, alone_on_port, start, stop, stop_launch, wait_until
 
-PAGES = sorted([*REPOSITORY.glob("*.md"), *(REPOSITORY / "docs").rglob("*.md")])
+PAGES = sorted([*REPOSITORY.glob("*.md"), *REPOSITORY.glob("wheel/*.md"), *(REPOSITORY / "docs").rglob("*.md")])
 BLOCK = re.compile(r"^```(bash|lua|python)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 OTHER_TERMINAL = re.compile(r"<!-- in another terminal: (.+?)(?:, until there is (\S+))? -->")
 LINK = re.compile(r"\]\((?!https?:)([^)#]*)(?:#([^)]*))?\)")

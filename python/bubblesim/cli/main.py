@@ -10,6 +10,7 @@ import sys
 from collections.abc import Sequence
 
 from bubblesim.messages.names import did_you_mean
+from bubblesim.program.run import run_program
 from bubblesim.running.processes import RunError
 
 _COMMANDS = (
@@ -54,6 +55,20 @@ Runs robot scenes and helps to write them. Begin with:
 _EPILOG = """\
 exit codes: 0 success, 1 a check or a run failed, or stdout is full or closed, 2 bad input; `run` returns those of the
 node. Data goes to stdout, everything else to stderr. NO_COLOR=1 disables colours."""
+
+
+def program() -> int:
+    """Run as the program of the wheel, which has no ROS; return the exit code."""
+    try:
+        return run_program(main)
+    except ModuleNotFoundError as error:
+        if (error.name or "bubblesim").startswith("bubblesim"):
+            raise
+        print(
+            f"error: this command needs the Python module {error.name}: install it, or use a build with ROS",
+            file=sys.stderr,
+        )
+        return _FAILED
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

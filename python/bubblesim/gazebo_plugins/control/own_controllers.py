@@ -12,8 +12,6 @@ import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
-import rospkg
-
 from bubblesim.gazebo_plugins.control.controller import Controller
 from bubblesim.gazebo_plugins.control.ros_parameters import ControllerError
 
@@ -23,6 +21,8 @@ def own_controller(kind: str) -> type[Controller] | None:
 
     :raises ControllerError: if its class cannot be imported.
     """
+    import rospkg  # of ROS, without which models are checked, too
+
     try:
         folder = Path(rospkg.RosPack().get_path(kind.partition("/")[0]))
     except rospkg.ResourceNotFound:
