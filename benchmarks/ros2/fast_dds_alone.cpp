@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
   for (int round = std::atoi(argv[1]); round > 0; --round) {
     for (Publisher& publisher : publishers) {
       const Clock::time_point begin = Clock::now();
-      write(**publisher.writer, publisher.message);
+      ros2::write(**publisher.writer, publisher.message);
       publisher.times.push_back(std::chrono::duration<double, std::micro>(Clock::now() - begin).count());
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -35,7 +35,7 @@ import numpy as np
 
 def sysCall_init():
     self.times = []
-    self.topics = [simROS2.createPublisher(f'/topic{n}', 'std_msgs/Float32') for n in range(20)]
+    self.topics = [simROS2.createPublisher(f'/topic{{n}}', 'std_msgs/Float32') for n in range(20)]
 
 def sysCall_actuation():
     self.begin = time.monotonic()

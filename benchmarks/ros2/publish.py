@@ -30,7 +30,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PEERS = ROOT / ".ws" / "ros2_peers" / "bin" / "python"
 DOMAIN = "87"
 ROUNDS = 300
-ALONE = ROOT / ".ws" / "build" / "bubblesim" / "benchmarks" / "ros2" / "fast_dds_alone"
+ALONE = ROOT / ".ws" / "devel" / "lib" / "bubblesim" / "fast_dds_alone"
 
 # By type: the message, as code that both sides understand; `np` is numpy.
 MESSAGES = {
