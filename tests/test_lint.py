@@ -46,5 +46,10 @@ def test_cpp_is_formatted() -> None:
 
 
 def test_shell_scripts_parse() -> None:
-    for name in ("setup", "test", "demo", "docs", "environment/activate.bash", "environment/sanitize.bash"):
+    programs = ("setup", "test", "demo", "docs", "package", "wheel", "fuzz", "soak")
+    for name in (*programs, "environment/activate.bash", "environment/sanitize.bash"):
         check("bash", "-n", f"scripts/{name}")
+
+
+def test_the_container_follows_its_linter() -> None:
+    check(str(Path(sys.executable).with_name("hadolint")), "config/ci/Containerfile")
