@@ -156,6 +156,8 @@ def test_the_types_of_ros2s_examples_are_there(
         def sysCall_init():
             for part in ('Goal', 'Result', 'Feedback'):
                 print(list(simROS2.createInterface(f'example_interfaces/action/Fibonacci{part}')))
+            print(simROS2.createInterface('std_srvs/srv/SetBoolRequest'))
+            print(simROS2.createInterface('tf2_msgs/srv/FrameGraph_Response'))  # it is not listed
             simROS2.createService('/add', 'example_interfaces/srv/AddTwoInts', lambda request: {'sum': 5})
             sim.quitSimulator()
     """
@@ -163,4 +165,4 @@ def test_the_types_of_ros2s_examples_are_there(
     env = {**ros2_domain.env(), **roscore.env} if version == "1" else ros2_domain.env()
     run = run_sim("ball", f"--ros={version}", "--strict", "--child-script", f"/Ball={file}", env=env)
     assert run.returncode == 0, run.stderr
-    assert run.stdout == "['order']\n['sequence']\n['sequence']\n"
+    assert run.stdout == "['order']\n['sequence']\n['sequence']\n{'data': False}\n{'frame_yaml': ''}\n"

@@ -76,3 +76,43 @@ def test_no_button_is_cut_off_on_a_small_screen(tmp_path: Path, show: Show) -> N
         page.page.set_viewport_size({"width": 1024, "height": 768})
         page.wait("document.querySelector('.toolbar').clientWidth === 1024")
         assert page.js(right) <= 1024
+
+
+BACK = "getComputedStyle(document.querySelector('.toolbar')).backgroundColor"
+FAINT = "getComputedStyle(document.documentElement).getPropertyValue('--faint')"
+DARK, LIGHT = "rgb(34, 39, 46)", "rgb(248, 249, 251)"
+
+
+def test_the_theme_is_switched_and_kept(tmp_path: Path, show: Show) -> None:
+    with Node(tmp_path, "ball", "--paused") as node:
+        window = show(node)
+        before = window.js(BACK)
+        other = {DARK: LIGHT, LIGHT: DARK}[before]
+        faint = window.js(FAINT)
+        assert faint.startswith("rgb"), "canvases draw with it"
+        window.button("Light or dark").click()
+        assert (window.js(BACK), window.js(FAINT) == faint) == (other, False)
+        window.page.reload()
+        window.wait(f"{BACK} === x", other)
+        window.button("Light or dark").click()
+        assert window.js(BACK) == before
+        assert window.js("localStorage.getItem('theme')") is None, "the system's is followed again"
+
+
+def test_panels_below_take_the_place_of_the_view(tmp_path: Path, show: Show) -> None:
+    """Messages are seen over them."""
+    height = "document.querySelector('.place.bottom').clientHeight"
+    with Node(tmp_path, "ball", "--paused") as node:
+        window = show(node)
+        before = window.js(height)
+        window.button("Maximise").click()
+        assert window.js(height) > before + 200
+        assert window.page.locator(".view").is_hidden()
+        window.js("bubblesim.notify('seen', 'error')")
+        notice = window.page.locator(".notice")
+        notice.click()  # which needs it to be on top
+        assert notice.count() == 0
+        window.page.locator(".place.bottom .tab").first.dblclick()
+        assert window.js(height) == before
+        window.js("bubblesim.view.settled()")
+        assert window.page.locator(".view").is_visible()

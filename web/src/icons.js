@@ -30,6 +30,8 @@ const PATHS = {
   hand: '<path d="M8 14V8M8 8l4-4M12 4h-3M12 4v3"/><circle cx="8" cy="14" r="1"/>',
   camera: '<path d="M1.5 4.5h3l1-2h5l1 2h3v9h-13z"/><circle cx="8" cy="8.5" r="2.5"/>',
   magnet: '<path d="M3 2v6a5 5 0 0 0 10 0V2h-3v6a2 2 0 0 1-4 0V2z"/>',
+  theme: '<circle cx="8" cy="8" r="5.7"/><path d="M8 2.3a5.7 5.7 0 0 1 0 11.4z" fill="currentColor"/>',
+  whole: '<path d="M9.5 2.5h4v4M13.5 2.5l-4.5 4.5M6.5 13.5h-4v-4M2.5 13.5l4.5-4.5"/>',
   info: '<circle cx="8" cy="8" r="6.2"/><path d="M8 7.2v4M8 4.6v.8"/>',
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The places of the page: toolbar above, panels left, right and below, the 3D view in the centre. Their sizes are kept.
 import { h } from "./dom.js";
+import { icon } from "./icons.js";
 
 const SIZES = { left: 260, right: 300, bottom: 240 };
 const LEAST = 120;
@@ -62,6 +63,7 @@ class Place {
     this.#resize(Number(localStorage.getItem(`size-${name}`)) || SIZES[name]);
     if (localStorage.getItem(`hidden-${name}`) === "yes") this.element.hidden = true;
     this.splitter.addEventListener("pointerdown", (event) => this.#drag(event));
+    if (name === "bottom") this.#addMaximise();
   }
 
   add(panel, app) {
@@ -72,7 +74,7 @@ class Place {
     content.hidden = true;
     const tab = h("button.tab", { role: "tab", onclick: () => this.#select(panel.id) }, panel.title);
     tab.dataset.panel = panel.id;
-    this.#tabs.append(tab);
+    this.#tabs.insertBefore(tab, this.#tabs.querySelector(".whole"));
     this.#body.append(content);
     this.#panels.push({ id: panel.id, tab, content, panel });
     const wanted = localStorage.getItem(`tab-${this.name}`);
@@ -94,6 +96,21 @@ class Place {
     this.element.hidden = !this.element.hidden;
     localStorage.setItem(`hidden-${this.name}`, this.element.hidden ? "yes" : "no");
     window.dispatchEvent(new Event("resize"));
+  }
+
+  /// A button, and a double click on the tabs, with which the panels take the place of the 3D view.
+  #addMaximise() {
+    const toggle = () => {
+      const whole = this.element.classList.toggle("whole");
+      button.classList.toggle("on", whole);
+      button.setAttribute("aria-pressed", whole);
+    };
+    const title = "Maximise or restore (double click on the tabs)";
+    const button = h("button.tool.whole", { title, onclick: toggle, "aria-label": title, "aria-pressed": false }, icon("whole"));
+    this.#tabs.append(button);
+    this.#tabs.addEventListener("dblclick", (event) => {
+      if (!button.contains(event.target)) toggle();
+    });
   }
 
   #select(id, keep = true) {

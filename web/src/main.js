@@ -19,9 +19,11 @@ import { Notices } from "./notices.js";
 import { panels } from "./panels/index.js";
 import { Scene } from "./scene.js";
 import { Selection } from "./selection.js";
+import { applyTheme } from "./theme.js";
 import { Toolbar } from "./toolbar.js";
 import { View } from "./view/view.js";
 
+applyTheme();
 const link = new Link();
 const scene = new Scene(link);
 const selection = new Selection(scene);

@@ -4,6 +4,7 @@ import { showAbout } from "./about.js";
 import { h } from "./dom.js";
 import { icon } from "./icons.js";
 import { showSaving } from "./saving.js";
+import { switchTheme } from "./theme.js";
 
 const SPEEDS = [
   [0.1, "0.1x"],
@@ -173,6 +174,7 @@ export class Toolbar {
       button("left", "Left panels", () => layout.toggle("left")),
       button("bottom", "Panels below", () => layout.toggle("bottom")),
       button("right", "Right panels", () => layout.toggle("right")),
+      button("theme", "Light or dark", switchTheme),
       button("info", "About: shortcuts and licences (?)", () => showAbout(this.#app)),
     );
   }

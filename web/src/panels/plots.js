@@ -9,6 +9,11 @@ const COLOURS = ["#3b9cff", "#ff7b54", "#39b86a", "#c678dd", "#e5b740", "#ec5f8c
 const PERIOD = 120; // ms between two pictures
 const WINDOWS = [10, 30, 60, 300, Infinity]; // s
 
+/// The colour of the axes, which follows the theme.
+function faint() {
+  return getComputedStyle(document.documentElement).getPropertyValue("--faint");
+}
+
 /// A plot with its series.
 class Plot {
   series = [];
@@ -59,7 +64,7 @@ class Plot {
       const text = last === undefined ? "-" : Number(last.toPrecision(4)).toString();
       if (value.textContent !== text) value.textContent = text;
     }
-    const now = `${size} ${end} ${window}`;
+    const now = `${size} ${end} ${window} ${faint()}`;
     if (now === this.#shown) return;
     this.#shown = now;
     this.#setData(end, window);
@@ -95,8 +100,6 @@ class Plot {
   async #make() {
     this.#uPlot ??= (await import("uplot")).default;
     this.#chart?.destroy();
-    const style = getComputedStyle(document.documentElement);
-    const faint = style.getPropertyValue("--faint");
     const axis = { stroke: faint, grid: { stroke: "#8883", width: 1 }, ticks: { stroke: "#8886", size: 4 }, font: "11px sans-serif" };
     this.#chart = new this.#uPlot(
       {

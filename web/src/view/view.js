@@ -39,6 +39,7 @@ export class View extends Emitter {
   shadows = localStorage.getItem("shadows") !== "no";
   #app;
   #dirty = true;
+  #hidden = false; // nothing of it is drawn
   #pace;
   #ready = false;
 
@@ -176,7 +177,8 @@ export class View extends Emitter {
 
   #resize() {
     const { clientWidth: width, clientHeight: height } = this.element;
-    if (!width || !height) return;
+    this.#hidden = !width || !height;
+    if (this.#hidden) return;
     this.renderer.setSize(width, height);
     this.viewpoint.resize(width, height);
     this.invalidate();
@@ -185,7 +187,7 @@ export class View extends Emitter {
   #frame() {
     if (this.viewpoint.advance()) this.#dirty = true;
     if (this.poses.advance()) this.#dirty = true;
-    if (!this.#dirty || document.hidden || !this.#pace.mayDraw) return;
+    if (!this.#dirty || this.#hidden || document.hidden || !this.#pace.mayDraw) return;
     this.#draw();
   }
 

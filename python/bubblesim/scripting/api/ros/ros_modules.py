@@ -20,6 +20,7 @@ from bubblesim.scripting.api.ros.transforms import RosTransforms
 from bubblesim.scripting.api.ros.transport import read_transport_hints
 
 _PART_OF_ACTION = re.compile(r"(?P<package>\w+)/action/(?P<action>\w+)(?P<part>Goal|Result|Feedback)")
+_HALF_OF_SERVICE = re.compile(r"(?P<service>\w+/srv/\w+?)_?(?P<half>Request|Response)")
 
 
 @script_module("simROS")
@@ -176,9 +177,9 @@ class SimRos2(RosServices, RosTransforms, RosImages, RosParameters, RosActions):
         self._shutdown_subscriber(subscriber)
 
     def createInterface(self, message_type: str) -> dict[str, Any]:
-        """Return a message with all fields at their defaults; `package/action/NameGoal` is the goal of an action, and
-        so are its `Result` and `Feedback`."""
-        name = self._part_of_action(message_type) or message_type
+        """Return a message with all fields at their defaults; `package/srv/NameRequest` and `NameResponse` are those of
+        a service, `package/action/NameGoal`, `NameResult` and `NameFeedback` those of an action."""
+        name = self._part_of_action(message_type) or self._half_of_service(message_type) or message_type
         message: dict[str, Any] = _core.messages.default(name, self._time_form, self._bridge.version)
         return message
 
@@ -191,6 +192,13 @@ class SimRos2(RosServices, RosTransforms, RosImages, RosParameters, RosActions):
         from bubblesim.messages.runtime import add_action
 
         return f"{add_action(part['package'] + '/' + part['action'])}_{part['part']}"
+
+    def _half_of_service(self, name: str) -> str | None:
+        half = _HALF_OF_SERVICE.fullmatch(name)
+        if half is None:
+            return None
+        halves: tuple[str, str] = _core.messages.service_halves(half["service"], self._bridge.version)
+        return halves[0] if half["half"] == "Request" else halves[1]
 
     def getInterfaceConstants(self, message_type: str) -> dict[str, Any]:
         """Return the constants of a type, by name."""
