@@ -14,7 +14,7 @@ from bubblesim.gazebo_plugins.drives.gz_ackermann_steering import GzAckermannSte
 from bubblesim.gazebo_plugins.drives.gz_diff_drive import GzDiffDrive
 from bubblesim.gazebo_plugins.drives.gz_odometry_publisher import GzOdometryPublisher
 from bubblesim.gazebo_plugins.drives.kobuki import Kobuki
-from bubblesim.gazebo_plugins.drives.planar_move import PlanarMove
+from bubblesim.gazebo_plugins.drives.planar_move import ForceBasedMove, PlanarMove
 from bubblesim.gazebo_plugins.drives.skid_steer_drive import SkidSteerDrive
 from bubblesim.gazebo_plugins.drives.tricycle_drive import TricycleDrive
 from bubblesim.gazebo_plugins.forces.buoyancy import GzBuoyancy, ModelBuoyancy
@@ -62,6 +62,7 @@ PLUGINS: dict[str, type[Plugin]] = {
     "gazebo_ros_diff_drive": DiffDrive,
     "gazebo_ros2_control": Ros2Control,
     "gazebo_ros_control": RosControl,
+    "gazebo_ros_force_based_move": ForceBasedMove,
     "gazebo_ros_ft_sensor": FtSensor,
     "gazebo_ros_gpu_laser": Laser,
     "gazebo_ros_imu": LinkImu,

@@ -13,6 +13,7 @@
 #include "bindings.hpp"
 #include "bubblesim/joint_ramps.hpp"
 #include "bubblesim/planar_drive.hpp"
+#include "bubblesim/planar_force_drive.hpp"
 #include "bubblesim/timed_efforts.hpp"
 #include "devices/attached.hpp"
 #include "devices/number_target.hpp"
@@ -116,6 +117,26 @@ void bind_planar_drive(py::module_& module) {
       .def("remove", &Drive::remove, "Remove it from the world.");
 }
 
+void bind_planar_force_drive(py::module_& module) {
+  using Drive = Attached<PlanarForceDrive>;
+  py::class_<Drive> drive(module, "PlanarForceDrive", "Pushes a link by forces towards a velocity along its own axes.");
+  drive.def(py::init([](World& world, ObjectId link, double forward, double leftward, double turning) {
+              const PlanarForceDrive::Gains gains{forward, leftward, turning};
+              auto made = std::make_shared<PlanarForceDrive>(world, link, gains);
+              return attach(world, std::move(made), world.tree().outermost_model_of(link), 0);
+            }),
+            py::arg("world"), py::arg("link"), py::arg("forward"), py::arg("leftward"), py::arg("turning"),
+            py::keep_alive<1, 2>(), "The gains are in N s/m and N m s.");
+  Guarded(drive)
+      .def(
+          "set_velocity",
+          [](Drive& d, double forward, double leftward, double turning) {
+            d.device->set_velocity(forward, leftward, turning);
+          },
+          py::arg("forward"), py::arg("leftward"), py::arg("turning"), "m/s and rad/s.")
+      .def("remove", &Drive::remove, "Remove it from the world.");
+}
+
 /// Calls a Python function before each substep. Made, called and destroyed in threads that may not hold the GIL.
 class SubstepCall : public Device {
  public:
@@ -180,6 +201,7 @@ void bind_substep_calls(py::module_& module) {
 void bind_devices(py::module_& module) {
   bind_timed_efforts(module);
   bind_joint_ramps(module);
+  bind_planar_force_drive(module);
   bind_planar_drive(module);
   bind_substep_calls(module);
 }

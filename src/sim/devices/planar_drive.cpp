@@ -3,16 +3,12 @@
 
 #include <cmath>
 
-#include "bubblesim/error.hpp"
-#include "validation/limits.hpp"
+#include "devices/planar_limits.hpp"
 
 namespace bubblesim {
 
 void PlanarDrive::set_velocity(double forward, double leftward, double turning) {
-  // The length of a velocity may be greater than its parts.
-  if (!within(std::hypot(forward, leftward), kMaxSpeed) || !within(turning, kMaxSpeed)) {
-    throw InvalidInput("the planar velocity must be finite and at most 1e6");
-  }
+  check_planar_velocity(forward, leftward, turning);
   forward_ = forward;
   leftward_ = leftward;
   turning_ = turning;

@@ -13,6 +13,7 @@
 #include "bubblesim/buoyancy.hpp"
 #include "bubblesim/joint_ramps.hpp"
 #include "bubblesim/planar_drive.hpp"
+#include "bubblesim/planar_force_drive.hpp"
 #include "bubblesim/scene_loader.hpp"
 #include "bubblesim/simulation.hpp"
 #include "bubblesim/timed_efforts.hpp"
@@ -139,9 +140,12 @@ TEST(Snapshot, KeepsDevices) {
     auto drive = std::make_shared<PlanarDrive>(robot);
     drive->set_velocity(0.2, 0.1, 0.3);
     world.devices().add(drive, robot);
+    const ObjectId body = world.tree().parts(robot, ObjectKind::kLink)[0];
+    auto pushed = std::make_shared<PlanarForceDrive>(world, body, PlanarForceDrive::Gains{50, 50, 5});
+    pushed->set_velocity(0.1, -0.1, 0.2);
+    world.devices().add(pushed, robot);
     auto efforts = std::make_shared<TimedEfforts>();
-    efforts->add_wrench(world, world.tree().parts(robot, ObjectKind::kLink)[0], {{3, 1, 0}, {}}, Vector3(0, 0.1, 0),
-                        {0.1, 0.4});
+    efforts->add_wrench(world, body, {{3, 1, 0}, {}}, Vector3(0, 0.1, 0), {0.1, 0.4});
     world.devices().add(efforts);
     Wind::Variation variation;
     variation.speed_noise = 1;
