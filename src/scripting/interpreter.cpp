@@ -38,7 +38,7 @@ std::atomic<bool> can_interrupt{false};
 
 /// Nobody sends this signal; interrupt() makes Python believe so. Not SIGINT, which the program handles itself: Python
 /// would take it over, and give it its default action, the program's end, when the interpreter ends.
-const int kInterruption = SIGRTMAX;
+const int kInterruption = SIGRTMAX - 1;  // the last one is valgrind's
 
 void install_interruption() {
   py::module_::import("bubblesim.scripting.host.interruption").attr("install")(kInterruption);
