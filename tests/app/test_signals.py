@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from node_support import NAME, Node, clean_environment, processes_with, write
+from node_support import NAME, Node, clean_environment, processes_with, run_sim, write
 from ros_support import RosCore, wait_until
 
 LIMIT = 2.0
@@ -136,3 +136,17 @@ def handles(node: Node, number: signal.Signals) -> bool:
     caught = re.search(r"SigCgt:\s+(\w+)", status)
     assert caught
     return bool(int(caught[1], 16) & 1 << (number - 1))
+
+
+def test_the_last_signal_is_left_to_valgrind(tmp_path: Path) -> None:
+    """It refuses a handler for it, and Python would not start."""
+    code = """
+        def sysCall_init():
+            status = open('/proc/self/status').read()
+            caught = int(status.split('SigCgt:')[1].split()[0], 16)
+            print(caught >> 62, 'of the last two')
+            sim.quitSimulator()
+    """
+    script = write(tmp_path / "script.py", code)
+    run = run_sim("ball", "--no-ros", "--child-script", f"/Ball={script}")
+    assert run.stdout == "1 of the last two\n", run.stderr
