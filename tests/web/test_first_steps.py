@@ -52,4 +52,4 @@ def test_a_question_mark_lists_the_keys(tmp_path: Path, show: Callable[..., Wind
         page.keyboard.press("?")
         assert "play, pause" in page.locator("dialog.about").inner_text()
         page.keyboard.press("Escape")
-        assert page.locator("dialog.about").count() == 0
+        page.locator("dialog.about").wait_for(state="detached")
