@@ -37,8 +37,10 @@ MESSAGES = {
     "std_msgs/Float32": "{'data': 1.5}",
     "geometry_msgs/Twist": "{'linear': {'x': 1.0}, 'angular': {'z': 0.5}}",
     "sensor_msgs/LaserScan": "{'range_max': 10.0, 'ranges': np.ones(720, np.float32)}",
-    "sensor_msgs/Image": "{'width': 640, 'height': 480, 'step': 1920, 'encoding': 'rgb8', 'data': PIXELS}",
-    "sensor_msgs/PointCloud2": "{'height': 1, 'width': 100000, 'point_step': 12, 'row_step': 1200000, 'data': POINTS}",
+    "sensor_msgs/Image": "{'width': 640, 'height': 480, 'step': 1920, 'encoding': 'rgb8', "
+    "'data': np.zeros(1920 * 480, np.uint8)}",
+    "sensor_msgs/PointCloud2": "{'height': 1, 'width': 100000, 'point_step': 12, 'row_step': 1200000, "
+    "'data': np.zeros(1200000, np.uint8)}",
 }
 
 SCRIPT = """
@@ -46,8 +48,6 @@ import json
 import time
 import numpy as np
 
-PIXELS = np.zeros(640 * 480 * 3, np.uint8)
-POINTS = np.zeros(1200000, np.uint8)
 MESSAGES = {messages}
 
 def sysCall_init():
@@ -75,8 +75,6 @@ import numpy as np
 import rclpy
 from rclpy.node import Node
 
-PIXELS = np.zeros(640 * 480 * 3, np.uint8)
-POINTS = np.zeros(1200000, np.uint8)
 MESSAGES = {messages}
 
 def type_of(name):
@@ -133,11 +131,10 @@ def code(template: str, **more: object) -> str:
 
 def ready_bytes(folder: Path) -> list[str]:
     """Write the CDR of each message to a file; return the arguments for fast_dds_alone."""
-    values = {"np": np, "PIXELS": np.zeros(640 * 480 * 3, np.uint8), "POINTS": np.zeros(1200000, np.uint8)}
     arguments = []
     for kind, text in MESSAGES.items():
         file = folder / kind.replace("/", "_")
-        file.write_bytes(_core.messages.encode_ros2(kind, eval(text, values)))
+        file.write_bytes(_core.messages.encode_ros2(kind, eval(text, {"np": np})))
         arguments.append(f"{kind}={file}")
     return arguments
 

@@ -100,13 +100,10 @@ void bind_joint_ramps(py::module_& module) {
       .def("remove", &Ramps::remove, "Remove it from the world.");
 }
 
-void bind_planar_drive(py::module_& module) {
-  using Drive = Attached<PlanarDrive>;
-  py::class_<Drive> drive(module, "PlanarDrive", "Moves a model at a velocity along its own axes.");
-  drive.def(py::init([](World& world, ObjectId model) {
-              return attach(world, std::make_shared<PlanarDrive>(model), model, 0);
-            }),
-            py::arg("world"), py::arg("model"), py::keep_alive<1, 2>());
+/// What the drives in the plane have in common.
+template <class Kind>
+void bind_planar_commands(py::class_<Attached<Kind>>& drive) {
+  using Drive = Attached<Kind>;
   Guarded(drive)
       .def(
           "set_velocity",
@@ -117,24 +114,25 @@ void bind_planar_drive(py::module_& module) {
       .def("remove", &Drive::remove, "Remove it from the world.");
 }
 
-void bind_planar_force_drive(py::module_& module) {
-  using Drive = Attached<PlanarForceDrive>;
-  py::class_<Drive> drive(module, "PlanarForceDrive", "Pushes a link by forces towards a velocity along its own axes.");
-  drive.def(py::init([](World& world, ObjectId link, double forward, double leftward, double turning) {
-              const PlanarForceDrive::Gains gains{forward, leftward, turning};
-              auto made = std::make_shared<PlanarForceDrive>(world, link, gains);
-              return attach(world, std::move(made), world.tree().outermost_model_of(link), 0);
+void bind_planar_drives(py::module_& module) {
+  py::class_<Attached<PlanarDrive>> drive(module, "PlanarDrive", "Moves a model at a velocity along its own axes.");
+  drive.def(py::init([](World& world, ObjectId model) {
+              return attach(world, std::make_shared<PlanarDrive>(model), model, 0);
             }),
-            py::arg("world"), py::arg("link"), py::arg("forward"), py::arg("leftward"), py::arg("turning"),
-            py::keep_alive<1, 2>(), "The gains are in N s/m and N m s.");
-  Guarded(drive)
-      .def(
-          "set_velocity",
-          [](Drive& d, double forward, double leftward, double turning) {
-            d.device->set_velocity(forward, leftward, turning);
-          },
-          py::arg("forward"), py::arg("leftward"), py::arg("turning"), "m/s and rad/s.")
-      .def("remove", &Drive::remove, "Remove it from the world.");
+            py::arg("world"), py::arg("model"), py::keep_alive<1, 2>());
+  bind_planar_commands(drive);
+
+  py::class_<Attached<PlanarForceDrive>> force_drive(module, "PlanarForceDrive",
+                                                     "Pushes a link by forces towards a velocity along its own axes.");
+  force_drive.def(
+      py::init([](Simulation& simulation, ObjectId link, double forward, double leftward, double turning) {
+        return attach_to_model_of<PlanarForceDrive>(link, simulation, [&](const World& world) {
+          return std::make_shared<PlanarForceDrive>(world, link, PlanarForceDrive::Gains{forward, leftward, turning});
+        });
+      }),
+      py::arg("simulation"), py::arg("link"), py::arg("forward"), py::arg("leftward"), py::arg("turning"),
+      py::keep_alive<1, 2>(), "The gains are in N s/m and N m s.");
+  bind_planar_commands(force_drive);
 }
 
 /// Calls a Python function before each substep. Made, called and destroyed in threads that may not hold the GIL.
@@ -201,8 +199,7 @@ void bind_substep_calls(py::module_& module) {
 void bind_devices(py::module_& module) {
   bind_timed_efforts(module);
   bind_joint_ramps(module);
-  bind_planar_force_drive(module);
-  bind_planar_drive(module);
+  bind_planar_drives(module);
   bind_substep_calls(module);
 }
 

@@ -25,7 +25,7 @@ class PublisherEndpoint {
   int subscribers() const { return subscribers_; }
   /// While it is aside, it publishes nothing.
   void set_aside(bool aside) { aside_ = aside; }
-  /// If it wants messages.
+  /// Only for a publisher that wants messages.
   void publish(messages::WireBuffer message);
 
   void open(Participant& participant);

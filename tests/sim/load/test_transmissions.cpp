@@ -17,6 +17,14 @@ ModelDescription robot_with(const std::string& transmission) {
       "/");
 }
 
+/// A robot whose <ros2_control> has one joint with one interface; what is wrong is in the context.
+UrdfRobot robot_with_interface(const std::string& interface, LoadContext& context) {
+  const XmlElement root = parse_xml("<robot name='r'><link name='a'/><ros2_control name='s'><joint name='j'>" +
+                                        interface + "</joint></ros2_control></robot>",
+                                    "r.urdf", context.warnings());
+  return read_robot(root, context);
+}
+
 TEST(Transmission, HasItsJointsAndActuators) {
   const ModelDescription robot = robot_with(
       "<transmission name='t'><type>transmission_interface/SimpleTransmission</type><joint name='axle'>"
@@ -64,22 +72,16 @@ TEST(Ros2Control, StatesWhereAJointBegins) {
 
 TEST(Ros2Control, RefusesAnInitialValueThatIsNoNumber) {
   LoadContext context("r.urdf", ".");
-  const XmlElement root = parse_xml(
-      "<robot name='r'><link name='a'/><ros2_control name='s'><joint name='j'><state_interface name='position'>"
-      "<param name='initial_value'>up</param></state_interface></joint></ros2_control></robot>",
-      "r.urdf", context.warnings());
-  EXPECT_FALSE(read_robot(root, context).transmissions.at(0).joints.at(0).initial_position.has_value());
+  const UrdfRobot robot = robot_with_interface(
+      "<state_interface name='position'><param name='initial_value'>up</param></state_interface>", context);
+  EXPECT_FALSE(robot.transmissions.at(0).joints.at(0).initial_position.has_value());
   ASSERT_EQ(context.problems().size(), 1U);
   EXPECT_NE(context.problems()[0].message.find("up"), std::string::npos);
 }
 
 TEST(Ros2Control, WarnsOfACommandInterfaceThatIsUnknown) {
   LoadContext context("r.urdf", ".");
-  const XmlElement root = parse_xml(
-      "<robot name='r'><link name='a'/><ros2_control name='s'><joint name='j'><command_interface name='current'/>"
-      "</joint></ros2_control></robot>",
-      "r.urdf", context.warnings());
-  const UrdfRobot robot = read_robot(root, context);
+  const UrdfRobot robot = robot_with_interface("<command_interface name='current'/>", context);
   EXPECT_TRUE(robot.transmissions.at(0).joints.at(0).hardware_interfaces.empty());
   ASSERT_EQ(context.warnings().size(), 1U);
   EXPECT_NE(context.warnings()[0].message.find("current"), std::string::npos);

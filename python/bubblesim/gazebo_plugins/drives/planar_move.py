@@ -84,4 +84,4 @@ class ForceBasedMove(PlanarMove):
             p.number("yaw_velocity_p_gain", 100.0, least=0.0),  # N m s
         )
         link = self.link("robotBaseFrame", "base_footprint")
-        return lambda: PlanarForceDrive(self.world, link, *gains)
+        return lambda: PlanarForceDrive(self.simulation, link, *gains)
