@@ -29,7 +29,8 @@ def sysCall_init():
         self.odometry_topic = simROS.advertise('/odom', 'nav_msgs/Odometry')
         self.truth_topic = simROS.advertise('/ground_truth', 'nav_msgs/Odometry')
         self.joints_topic = simROS.advertise('/joint_states', 'sensor_msgs/JointState')
-        self.cloud_topic = simROS.advertise('/lidarPC', 'sensor_msgs/PointCloud2')
+        # A mapper wants each cloud, also on a machine that sends them late.
+        self.cloud_topic = simROS.advertise('/lidarPC', 'sensor_msgs/PointCloud2', 100)
     numbers = random.Random(sim.getRandom())
     self.noise = lambda: numbers.gauss(0.0, noise)
     start_odometry()

@@ -60,7 +60,7 @@ class DepthImageToLaserScan {
   message_filters::Subscriber<sensor_msgs::Image> images_;
   message_filters::Subscriber<sensor_msgs::CameraInfo> cameras_;
   message_filters::TimeSynchronizer<sensor_msgs::Image, sensor_msgs::CameraInfo> pairs_{images_, cameras_, kQueue};
-  bubblesim::LazyScans scans_{node_, [this] { listen(); }, [this] { stop_listening(); }};
+  bubblesim::LazyScans scans_{node_, kQueue, [this] { listen(); }, [this] { stop_listening(); }};
 };
 
 }  // namespace

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The node mapper: builds a map from LaserScan on scan and odometry from tf, and localizes the base in it.
-#include <message_filters/subscriber.h>
 #include <nav_msgs/GetMap.h>
 #include <nav_msgs/MapMetaData.h>
 #include <std_srvs/Empty.h>
 #include <std_srvs/Trigger.h>
 #include <tf2/utils.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/message_filter.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 
 #include "map_files.hpp"
 #include "parameters.hpp"
+#include "placed_messages.hpp"
 #include "run_node.hpp"
 #include "scan_mapper.hpp"
 #include "transforms.hpp"
@@ -46,8 +44,6 @@ class Mapper {
         mapper_(options_) {
     if (!(map_update_interval_ >= 0.0)) throw std::invalid_argument("map_update_interval must not be negative");
     if (!(transform_delay_ >= 0.0)) throw std::invalid_argument("tf_delay must not be negative");
-    placed_.registerCallback(&Mapper::take, this);
-    placed_.registerFailureCallback([this](const Scan::ConstPtr& scan, auto reason) { lose(*scan, reason); });
   }
 
  private:
@@ -166,7 +162,13 @@ class Mapper {
   ros::ServiceServer resetting_ = own_.advertiseService("reset", &Mapper::reset, this);
   ros::ServiceServer giving_ = node_.advertiseService("dynamic_map", &Mapper::give, this);
   message_filters::Subscriber<Scan> scans_{node_, "scan", kQueue};
-  tf2_ros::MessageFilter<Scan> placed_{scans_, transforms_, odom_frame_, kQueue, node_};
+  bubblesim::PlacedMessages<Scan> placed_{scans_,
+                                          transforms_,
+                                          odom_frame_,
+                                          kQueue,
+                                          node_,
+                                          [this](const Scan::ConstPtr& scan) { take(scan); },
+                                          [this](const Scan::ConstPtr& scan, auto reason) { lose(*scan, reason); }};
 };
 
 }  // namespace

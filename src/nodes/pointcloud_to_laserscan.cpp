@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The node pointcloud_to_laserscan: converts PointCloud2 on cloud_in to LaserScan on scan while it has subscribers.
-#include <message_filters/subscriber.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/message_filter.h>
 #include <tf2_ros/transform_listener.h>
 
 #include <memory>
@@ -10,6 +7,7 @@
 #include "cloud_to_scan.hpp"
 #include "lazy_scans.hpp"
 #include "parameters.hpp"
+#include "placed_messages.hpp"
 #include "run_node.hpp"
 #include "transforms.hpp"
 
@@ -57,13 +55,13 @@ class PointCloudToLaserScan {
     } else {
       transforms_ = std::make_unique<tf2_ros::Buffer>(kMemory);
       listener_ = std::make_unique<tf2_ros::TransformListener>(*transforms_);
-      placed_ =
-          std::make_unique<tf2_ros::MessageFilter<Cloud>>(clouds_, *transforms_, target_frame_, queue_size_, node_);
-      placed_->setTolerance(ros::Duration(tolerance));
-      placed_->registerCallback(&PointCloudToLaserScan::convert, this);
+      placed_ = std::make_unique<bubblesim::PlacedMessages<Cloud>>(
+          clouds_, *transforms_, target_frame_, queue_size_, node_,
+          [this](const Cloud::ConstPtr& cloud) { convert(cloud); }, [](const auto&, auto) {}, ros::Duration(tolerance));
     }
     scans_ = std::make_unique<bubblesim::LazyScans>(
-        node_, [this] { clouds_.subscribe(node_, "cloud_in", queue_size_); }, [this] { clouds_.unsubscribe(); });
+        node_, queue_size_, [this] { clouds_.subscribe(node_, "cloud_in", queue_size_); },
+        [this] { clouds_.unsubscribe(); });
   }
 
  private:
@@ -94,7 +92,7 @@ class PointCloudToLaserScan {
   std::unique_ptr<tf2_ros::Buffer> transforms_;  // null without a target frame
   std::unique_ptr<tf2_ros::TransformListener> listener_;
   message_filters::Subscriber<Cloud> clouds_;
-  std::unique_ptr<tf2_ros::MessageFilter<Cloud>> placed_;
+  std::unique_ptr<bubblesim::PlacedMessages<Cloud>> placed_;
   std::unique_ptr<bubblesim::LazyScans> scans_;
 };
 

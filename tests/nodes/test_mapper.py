@@ -86,6 +86,34 @@ wait_until(look_after_a_jump, "a map after the jump")
 print(json.dumps(answer))
 """
 
+SCANS_THAT_WAITED = """
+from std_msgs.msg import Header
+from tf2_msgs.msg import TFMessage
+corrections = []
+
+def note(message):
+    corrections.extend(t.header.stamp.to_sec() for t in message.transforms if t.header.frame_id == "late_map")
+
+rospy.Subscriber("/tf", TFMessage, note)
+scans = rospy.Publisher("scan", LaserScan, queue_size=100)
+transforms = tf2_ros.TransformBroadcaster()
+wait_until(scans.get_num_connections, "the mapper")
+wait_until(lambda: transforms.pub_tf.get_num_connections() > 1, "the subscribers of transforms")
+for i in range(50):
+    scan = LaserScan(header=Header(stamp=rospy.Time(2000, 10_000_000 * i), frame_id="late_base"))
+    scan.angle_min, scan.angle_max, scan.angle_increment, scan.range_max = -1.0, 1.0, 0.5, 20.0
+    scan.ranges = [2.0] * 5
+    scans.publish(scan)
+time.sleep(0.5)  # until all wait
+assert not corrections
+for seconds in (2000, 2001):
+    place = TransformStamped(header=Header(stamp=rospy.Time(seconds), frame_id="late_odom"), child_frame_id="late_base")
+    place.transform.rotation.w = 1.0
+    transforms.sendTransform(place)
+wait_until(lambda: len(corrections) >= 50, "the corrections")
+print(json.dumps(corrections == sorted(corrections)))
+"""
+
 
 @pytest.fixture(autouse=True, scope="module")
 def _simulated_time(core: RosCore) -> None:
@@ -105,6 +133,12 @@ def test_scans_become_a_map_and_odometry_is_put_right(node: Start, ask: Ask, tmp
     assert read_map(tmp_path / "made" / "room.yaml").occupied.sum() == seen["walls"]
     assert seen["after_reset"] == 0
     assert "no map yet" in seen["saved_nothing"]
+
+
+def test_scans_that_waited_for_their_transform_are_mapped_in_their_order(node: Start, ask: Ask) -> None:
+    frames = [f"_{name}_frame:=late_{name}" for name in ("base", "odom", "map")]
+    node("mapper", *frames, "__ns:=/late")
+    assert ask(SCANS_THAT_WAITED, "__ns:=/late")
 
 
 def test_a_mapper_of_nonsense_is_refused(node: Start, core: RosCore) -> None:

@@ -37,6 +37,28 @@ known = scan.header.stamp.to_nsec() in stamps
 print(json.dumps({"frame": scan.header.frame_id, "known": known, "hits": hits, "rays": len(scan.ranges)}))
 """
 
+CLOUDS_THAT_WAITED = """
+from sensor_msgs import point_cloud2
+from std_msgs.msg import Header
+scans = []
+rospy.Subscriber("/late/scan", LaserScan, scans.append)
+clouds = rospy.Publisher("/late/cloud", PointCloud2, queue_size=100)
+transforms = tf2_ros.TransformBroadcaster()
+wait_until(clouds.get_num_connections, "the node")
+wait_until(transforms.pub_tf.get_num_connections, "the subscriber of transforms")
+stamps = [rospy.Time.now() + rospy.Duration.from_sec(0.001 * i) for i in range(100)]
+for stamp in stamps:
+    clouds.publish(point_cloud2.create_cloud_xyz32(Header(stamp=stamp, frame_id="lidar"), [(2.0, 0.0, 0.0)]))
+time.sleep(0.5)  # until all wait
+assert not scans
+for stamp in (stamps[0], stamps[-1] + rospy.Duration(1)):
+    transform = TransformStamped(header=Header(stamp=stamp, frame_id="base"), child_frame_id="lidar")
+    transform.transform.rotation.w = 1.0
+    transforms.sendTransform(transform)
+wait_until(lambda: len(scans) >= len(stamps), "the scans")
+print(json.dumps([scan.header.stamp for scan in scans] == stamps))
+"""
+
 DEPTH_IMAGE = """
 from std_msgs.msg import Header
 scans = []
@@ -65,6 +87,12 @@ def test_a_cloud_becomes_a_scan_in_the_target_frame(node: Start, ask: Ask) -> No
     assert (seen["frame"], seen["known"], seen["rays"]) == ("base", True, 360)
     # 2.5 m ahead; the point to the left is at (0.5, 1): 63.4 degrees, 1.118 m. Rays start at -180 degrees.
     assert seen["hits"] == {"180": 2.5, "243": pytest.approx(1.118, abs=1e-3)}
+
+
+def test_clouds_that_waited_for_a_transform_become_scans_in_their_order(node: Start, ask: Ask) -> None:
+    names = ["cloud_in:=/late/cloud", "scan:=/late/scan", "__name:=late"]
+    node("pointcloud_to_laserscan", *names, "_target_frame:=base", "_queue_size:=100")
+    assert ask(CLOUDS_THAT_WAITED)
 
 
 def test_a_depth_image_becomes_a_scan_in_the_frame_that_is_asked_for(node: Start, ask: Ask) -> None:
