@@ -5,6 +5,7 @@ import pytest
 
 from bubblesim.scripting.api.functions import MODULES, functions
 from bubblesim.scripting.api.ik import ik_module  # noqa: F401  # registers modules
+from bubblesim.scripting.api.ompl import ompl_module  # noqa: F401  # registers modules
 from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # registers modules
 from bubblesim.scripting.api.sim import remote_api_module, sim_module  # noqa: F401  # registers modules
 from bubblesim.scripting.api.ui import ui_module  # noqa: F401  # registers modules
@@ -31,6 +32,21 @@ def test_a_function_documents_its_arguments_and_what_it_does(name: str) -> None:
     assert "position     3 numbers\n" in text
     assert "relative_to  the handle of an object, an integer, optional\n" in text
     assert "Set the position of a model, link or dummy" in text
+
+
+@pytest.mark.parametrize(
+    ("old", "present"),
+    [
+        ("simGetObjectHandle", "sim.getObjectHandle"),
+        ("sim.getIntegerSignal", "sim.getInt32Signal"),
+        ("simExtRosInterface_publish", "simROS.publish"),
+        ("simIK.createIkGroup", "simIK.createGroup"),
+    ],
+)
+def test_an_old_name_leads_to_the_present_one(old: str, present: str) -> None:
+    lines = bubblesim("api", old).stdout.splitlines()
+    assert lines[0] == f"{old} is an old name of {present}"
+    assert lines[1].startswith(f"{present}(")
 
 
 def test_a_part_of_a_name_finds_all_that_have_it() -> None:

@@ -8,9 +8,11 @@ import difflib
 import inspect
 import sys
 import textwrap
+from collections.abc import Mapping
 from typing import Any
 
 from bubblesim.cli.terminal import painted
+from bubblesim.scripting.api import old_names
 from bubblesim.scripting.api.functions import MODULES, ScriptFunction, functions, kinds_of
 from bubblesim.scripting.api.ik import ik_module  # noqa: F401  # register their modules
 from bubblesim.scripting.api.ompl import ompl_module  # noqa: F401  # register their modules
@@ -47,9 +49,11 @@ def _show(options: argparse.Namespace) -> int:
                 mark = " (remote clients only)" if function.for_remote_only else ""
                 print(f"{call(name, function)}{mark}: {_first_sentence(function)}")
         return 0
-    chosen = {name: f for name, f in known.items() if wanted in (name, f.name)} or {
-        name: f for name, f in known.items() if wanted.lower() in name.lower()
-    }
+    chosen = {name: f for name, f in known.items() if wanted in (name, f.name)}
+    if not chosen and (present := _present_name(wanted, known)):
+        print(f"{wanted} is an old name of {present}")
+        chosen = {present: known[present]}
+    chosen = chosen or {name: f for name, f in known.items() if wanted.lower() in name.lower()}
     if not chosen:
         near = difflib.get_close_matches(wanted.rpartition(".")[2], {f.name for f in known.values()}, n=5)
         hint = f"; did you mean {', '.join(near)}?" if near else "; `bubblesim api` lists them all"
@@ -57,6 +61,16 @@ def _show(options: argparse.Namespace) -> int:
         return 2
     print("\n\n".join(_described(name, function) for name, function in chosen.items()))
     return 0
+
+
+def _present_name(old: str, known: Mapping[str, ScriptFunction]) -> str | None:
+    """Return the present name, with its module, of a function of older versions."""
+    module, _, name = old.rpartition(".")
+    if module:
+        present = f"{module}.{old_names.present_name(module, name)}"
+    else:
+        present = ".".join(old_names.of_v_rep(old, lambda module, name: f"{module}.{name}" in known) or ())
+    return present if present in known else None
 
 
 def _first_sentence(function: ScriptFunction) -> str:
