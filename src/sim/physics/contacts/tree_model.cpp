@@ -84,7 +84,7 @@ TreeModel::TreeModel(const PlacedModel& model) : model_(model), numbers_(model.l
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     if (used[i]) continue;
     loops_.push_back(i);
-    for (int k = 0; k < model.joints[i].joint->axis_count(); ++k) axes_.push_back({i, k, -1});
+    for (int k = 0; k < model.joints[i].joint->axis_count(); ++k) axes_.push_back({i, k, -1, {}});
   }
 }
 
@@ -103,7 +103,7 @@ void TreeModel::add_link(std::size_t number, int parent) {
   numbers_[place] = tree_.add(link);
   places_.push_back(place);
   for (int k = 0; k < joint.joint->axis_count(); ++k) {
-    axes_.push_back({number, k, tree_.first_dof(numbers_[place]) + k});
+    axes_.push_back({number, k, tree_.first_dof(numbers_[place]) + k, {}});
   }
 }
 
@@ -133,8 +133,19 @@ void TreeModel::begin(const Vector3& gravity, double step) {
     tree_.set_inertia(static_cast<int>(i), model_.links[places_[i]].mass, inertia_of(body));
   }
   tree_.read(poses_, velocities_);
-  tree_.place();
   tree_.set_velocities(tree_.rates());
+  forces_.setZero(tree_.dofs());
+  added_.setZero(tree_.dofs());
+  for (Axis& axis : axes_) {
+    axis.forces = model_.joints[axis.joint].joint->forces(axis.number);
+    const std::optional<MotorForce>& damper = axis.forces.damper;
+    if (axis.dof < 0 || !damper || !(damper->softness > 0)) continue;
+    // A force at the velocity after the substep: stable for any coefficient.
+    const double coefficient = 1 / damper->softness;
+    added_[axis.dof] = step * coefficient;
+    forces_[axis.dof] = coefficient * (damper->velocity - tree_.rates()[axis.dof]);
+  }
+  tree_.factor(added_);
   for (std::size_t i = 0; i < count; ++i) {
     const Link& link = model_.links[places_[i]];
     dBodyID body = link.body.get();
@@ -144,21 +155,8 @@ void TreeModel::begin(const Vector3& gravity, double step) {
     // A velocity that the joints do not allow, such as one that was set, acts as an impulse.
     const Twist allowed = tree_.velocity(static_cast<int>(i));
     wrench.force += (velocities_[i].linear - allowed.linear) * (link.mass / step);
-    const Vector3 spin = body_pose(body).orientation.conjugate() * (velocities_[i].angular - allowed.angular);
-    wrench.torque += body_pose(body).orientation * (inertia_of(body) * spin) / step;
+    wrench.torque += tree_.inertia(static_cast<int>(i)) * (velocities_[i].angular - allowed.angular) / step;
   }
-  forces_ = Eigen::VectorXd::Zero(tree_.dofs());
-  added_ = Eigen::VectorXd::Zero(tree_.dofs());
-  for (const Axis& axis : axes_) {
-    if (axis.dof < 0) continue;
-    const std::optional<MotorForce> damper = model_.joints[axis.joint].joint->forces(axis.number).damper;
-    if (!damper || !(damper->softness > 0)) continue;
-    // A force at the velocity after the substep: stable for any coefficient.
-    const double coefficient = 1 / damper->softness;
-    added_[axis.dof] = step * coefficient;
-    forces_[axis.dof] = coefficient * (damper->velocity - tree_.rates()[axis.dof]);
-  }
-  tree_.factor(added_);
   tree_.push(step, wrenches_, forces_);
 }
 
@@ -182,7 +180,7 @@ int TreeModel::add_axis_row(const Axis& axis, ConstraintRows& rows) {
 
 void TreeModel::add_axis_rows(const Axis& axis, ConstraintRows& rows, double step) {
   const PlacedJoint& joint = model_.joints[axis.joint];
-  const AxisForces forces = joint.joint->forces(axis.number);
+  const AxisForces& forces = axis.forces;
   const auto hold = [&](const MotorForce& force) {
     const int row = add_axis_row(axis, rows);
     rows.set(row, force.velocity, kConstraintSoftness / step, 0);

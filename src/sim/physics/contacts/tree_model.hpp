@@ -34,6 +34,7 @@ class TreeModel {
     std::size_t joint;  // of the model
     int number;         // of the axis in its joint
     int dof;            // -1: of a joint that closes a loop
+    AxisForces forces;  // in this substep
   };
   struct MotorRow {
     MotorMeter* meter;

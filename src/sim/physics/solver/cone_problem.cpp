@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/solver/cone_problem.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +14,8 @@ constexpr int kSweepsAfterStall = 10;
 constexpr int kLastSweeps = 300;
 
 double bound_of(const ConeBlock& block, double normal) { return block.mu * std::max(normal, 0.0); }
+
+double size_of(double x, double y) { return std::sqrt(x * x + y * y); }
 
 /// The largest eigenvalue of the part of a disc.
 double largest(const Eigen::MatrixXd& a, int row) {
@@ -38,11 +39,21 @@ double ConeSolver::evaluate(const ConeProblem& problem, const Eigen::VectorXd& x
       residual_[r] = (x[r] - std::clamp(trial_[r], lower, upper)) / scale_[r];
       continue;
     }
-    const double size = std::hypot(trial_[r], trial_[r + 1]);
+    const double size = size_of(trial_[r], trial_[r + 1]);
     const double part = size > bound ? bound / size : 1;
     for (int k = r; k < r + 2; ++k) residual_[k] = (x[k] - part * trial_[k]) / scale_[k];
   }
   return residual_.squaredNorm();
+}
+
+/// Whether the last point that was evaluated is: then the slope of the residual is A.
+bool ConeSolver::is_within_bounds(const ConeProblem& problem) const {
+  return std::all_of(problem.blocks.begin(), problem.blocks.end(), [&](const ConeBlock& block) {
+    const double bound = block.normal < 0 ? 0 : bound_of(block, trial_[block.normal]);
+    const int r = block.row;
+    if (block.size == 2) return size_of(trial_[r], trial_[r + 1]) <= bound;
+    return block.normal < 0 ? trial_[r] > block.lower && trial_[r] < block.upper : std::abs(trial_[r]) < bound;
+  });
 }
 
 /// The slope of the residual at the last point that was evaluated.
@@ -73,7 +84,7 @@ void ConeSolver::differentiate(const ConeProblem& problem) {
       }
       continue;
     }
-    const double size = std::hypot(trial_[r], trial_[r + 1]);
+    const double size = size_of(trial_[r], trial_[r + 1]);
     if (size <= bound) {
       slope_.middleRows(r, 2) = a.middleRows(r, 2);
       continue;
@@ -104,7 +115,7 @@ void ConeSolver::sweep(ConeProblem& problem) {
     }
     double t[2];
     for (int k = 0; k < 2; ++k) t[k] = x[r + k] - scale_[r + k] * (a.row(r + k).dot(x) - problem.b[r + k]);
-    const double size = std::hypot(t[0], t[1]);
+    const double size = size_of(t[0], t[1]);
     for (int k = 0; k < 2; ++k) x[r + k] = size > bound ? t[k] * (bound / size) : t[k];
   }
 }
@@ -122,9 +133,13 @@ ConeResult ConeSolver::solve(ConeProblem& problem) {
   double merit = evaluate(problem, problem.x);
   while (merit > enough && result.newton_steps < kNewtonSteps) {
     ++result.newton_steps;
-    differentiate(problem);
+    if (is_within_bounds(problem)) {
+      step_ = whole_.compute(problem.a).solve(residual_);
+    } else {
+      differentiate(problem);
+      step_ = sloped_.compute(slope_).solve(residual_);
+    }
     before_ = problem.x;
-    step_ = slope_.partialPivLu().solve(residual_);
     double next = std::numeric_limits<double>::infinity();
     double part = 1;
     for (int i = 0; i < kHalvings && step_.allFinite(); ++i, part /= 2) {

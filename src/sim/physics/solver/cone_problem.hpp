@@ -8,7 +8,9 @@
 // Gauss-Seidel.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <limits>
 #include <vector>
 
@@ -44,6 +46,7 @@ class ConeSolver {
 
  private:
   double evaluate(const ConeProblem& problem, const Eigen::VectorXd& x);
+  bool is_within_bounds(const ConeProblem& problem) const;
   void differentiate(const ConeProblem& problem);
   void sweep(ConeProblem& problem);
 
@@ -52,6 +55,8 @@ class ConeSolver {
   Eigen::VectorXd trial_;     // x - scale v
   Eigen::VectorXd before_, step_;
   Eigen::MatrixXd slope_;
+  Eigen::LLT<Eigen::MatrixXd> whole_;            // of A
+  Eigen::PartialPivLU<Eigen::MatrixXd> sloped_;  // of the slope
 };
 
 }  // namespace bubblesim

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -32,39 +31,37 @@ class ConstraintRows {
   void set(int row, double target, double softness, double start);
   void bound(const ConeBlock& block) { problem_.blocks.push_back(block); }
 
-  /// The present velocity of a row: of the first body relative to the second.
-  double velocity(int row) const;
   /// Finds the impulses and changes the rates of the trees, which are factored.
   ConeResult solve();
   double impulse(int row) const { return problem_.x[row]; }
 
  private:
-  /// The part of a row in one tree; the values by degree of freedom are 0 beside the two ways to the world.
-  struct Side {
-    Tree* tree = nullptr;
-    std::array<int, 2> leaves{-1, -1};
-    std::size_t given = 0;   // J, in values_
-    std::size_t solved = 0;  // L^-T J
-  };
   struct Row {
-    std::array<Side, 2> sides;
     double target = 0;
     double softness = 0;
     double start = 0;
   };
+  /// The rows that act on one tree; those that also act on another one are in both.
+  struct RowsOfTree {
+    Tree* tree = nullptr;
+    std::vector<int> rows;      // their numbers
+    std::vector<double> given;  // J: rows x degrees of freedom, row by row; 0 beside the ways to the world
+    Eigen::MatrixXd solved;     // J L^-1 D^-1/2, so that its square is the part of A
+  };
 
   int add(const TreeBody& first, const TreeBody& second, const Vector3& turn, const Vector3& push,
           const Vector3& point);
-  Side& side_of(Row& row, Tree* tree);
-  void add_way(Row& row, const TreeBody& body, const Vector3& turn, const Vector3& push, const Vector3& point,
-               double sign);
-  double product(const Side& a, const Side& b) const;
+  /// The values of the last row in a tree, which are 0 at first.
+  double* values(Tree& tree);
+  void add_way(const TreeBody& body, const Vector3& turn, const Vector3& push, const Vector3& point, double sign);
 
   std::vector<Row> rows_;
-  std::vector<double> values_;
+  std::vector<RowsOfTree> trees_;  // the first `used_` of them; the others keep their memory
+  std::size_t used_ = 0;
   ConeProblem problem_;
   ConeSolver solver_;
-  std::vector<double> change_;
+  Eigen::MatrixXd square_;
+  Eigen::VectorXd part_, change_;
 };
 
 }  // namespace bubblesim

@@ -35,6 +35,7 @@ int Tree::add(const TreeLink& link) {
   placed.first_dof = dofs();
   placed.dof_count = count_of(link.motion);
   placed.last_dof = link.parent < 0 ? -1 : last_dof(link.parent);
+  placed.axis = link.in_parent.orientation * link.axis;
   for (int i = 0; i < placed.dof_count; ++i) {
     before_.push_back(placed.last_dof);
     depth_.push_back(placed.last_dof < 0 ? 0 : depth_[index(placed.last_dof)] + 1);
@@ -61,23 +62,29 @@ Pose Tree::pose(int link) const {
   return {origin_ + body.centre, body.orientation};
 }
 
-Pose Tree::pose_of_parent(int link) const {
-  const int parent = links_[index(link)].link.parent;
-  return parent < 0 ? Pose() : pose(parent);
+void Tree::set_origin(const Vector3& origin) {
+  origin_ = origin;
+  world_.centre = -origin;
 }
 
 void Tree::read(const std::vector<Pose>& poses, const std::vector<Twist>& velocities) {
+  set_origin(poses[0].position);
   for (int i = 0; i < links(); ++i) {
     const TreeLink& link = links_[index(i)].link;
     TreeJointState& state = joints_[index(i)];
+    Body& body = bodies_[index(i)];
     const int dof = first_dof(i);
     const Pose& here = poses[index(i)];
     const Twist& now = velocities[index(i)];
+    body.orientation = here.orientation;
+    body.axes = here.orientation.toRotationMatrix();
+    body.centre = here.position - origin_;
     if (link.motion == TreeMotion::kFree) {
       state.place = here.position;
       state.turn = here.orientation;
       rates_.segment<3>(dof) = now.angular;
       rates_.segment<3>(dof + 3) = now.linear;
+      place_joint(i);
       continue;
     }
     const Pose parent = link.parent < 0 ? Pose() : poses[index(link.parent)];
@@ -111,6 +118,7 @@ void Tree::read(const std::vector<Pose>& poses, const std::vector<Twist>& veloci
       rates_[dof] = (a - mixed * b) / (1 - mixed * mixed);
       rates_[dof + 1] = (b - mixed * a) / (1 - mixed * mixed);
     }
+    place_joint(i);
   }
 }
 
@@ -119,46 +127,65 @@ void Tree::place() {
     const TreeLink& link = links_[index(i)].link;
     const TreeJointState& state = joints_[index(i)];
     Body& body = bodies_[index(i)];
-    Pose joint;
     if (link.motion == TreeMotion::kFree) {
-      joint = {state.place, state.turn};
       body.orientation = state.turn;
-      if (i == 0) origin_ = state.place;
-      body.centre = body.anchor = state.place - origin_;
-    } else {
-      joint = pose_of_parent(i) * link.in_parent;
-      Quaternion turned = joint.orientation * state.turn;
-      if (link.motion == TreeMotion::kTwoAxes) turned = turned * state.turn2;
-      body.orientation = (turned * link.in_child.orientation.conjugate()).normalized();
-      const Vector3 anchor = joint.position + joint.orientation * (link.axis * state.slide);
-      const Vector3 centre = anchor - body.orientation * link.in_child.position;
-      if (i == 0) origin_ = centre;
-      body.anchor = anchor - origin_;
-      body.centre = centre - origin_;
+      body.axes = body.orientation.toRotationMatrix();
+      if (i == 0) set_origin(state.place);
+      body.centre = state.place - origin_;
+      place_joint(i);
+      continue;
     }
+    Quaternion turned = parent_of(link).orientation * link.in_parent.orientation * state.turn;
+    if (link.motion == TreeMotion::kTwoAxes) turned = turned * state.turn2;
+    body.orientation = (turned * link.in_child.orientation.conjugate()).normalized();
     body.axes = body.orientation.toRotationMatrix();
-    body.inertia = body.axes * link.inertia * body.axes.transpose();
-    place_columns(i, joint);
+    if (i == 0) set_origin(Vector3());
+    place_joint(i);
+    body.centre = body.anchor - body.axes * link.in_child.position;
+    if (i > 0) continue;
+    set_origin(body.centre);
+    body.centre = Vector3();
+    place_joint(i);
   }
 }
 
-void Tree::place_columns(int number, const Pose& joint) {
+/// Computes anchor and directions of motion; the parent is placed, and the link of kFree.
+void Tree::place_joint(int number) {
   const Placed& placed = links_[index(number)];
   const TreeLink& link = placed.link;
-  const Vector3& anchor = bodies_[index(number)].anchor;
+  const Body& parent = parent_of(link);
+  Body& body = bodies_[index(number)];
   TreeColumn* column = columns_.data() + placed.first_dof;
-  const auto turning = [&](const Vector3& axis) { *column++ = {axis, anchor.cross(axis)}; };
-  if (link.motion == TreeMotion::kFree || link.motion == TreeMotion::kBall) {
-    for (int k = 0; k < 3; ++k) turning(Vector3::Unit(k));
-  }
+  const auto turning = [&](const Vector3& axis) { *column++ = {axis, body.anchor.cross(axis)}; };
   if (link.motion == TreeMotion::kFree) {
+    body.anchor = body.centre;
+    for (int k = 0; k < 3; ++k) turning(Vector3::Unit(k));
     for (int k = 0; k < 3; ++k) *column++ = {Vector3(), Vector3::Unit(k)};
+    return;
   }
-  const Vector3 axis = joint.orientation * link.axis;
-  if (link.motion == TreeMotion::kSlides) *column++ = {Vector3(), axis};
-  if (link.motion == TreeMotion::kScrews) *column++ = {axis, anchor.cross(axis) + axis * link.lead};
-  if (link.motion == TreeMotion::kTurns || link.motion == TreeMotion::kTwoAxes) turning(axis);
-  if (link.motion == TreeMotion::kTwoAxes) turning(joint.orientation * (joints_[index(number)].turn * link.axis2));
+  const Vector3 axis = parent.axes * placed.axis;
+  body.anchor = parent.centre + parent.axes * link.in_parent.position;
+  if (slides(link.motion)) body.anchor += axis * joints_[index(number)].slide;
+  switch (link.motion) {
+    case TreeMotion::kBall:
+      for (int k = 0; k < 3; ++k) turning(Vector3::Unit(k));
+      break;
+    case TreeMotion::kSlides:
+      *column = {Vector3(), axis};
+      break;
+    case TreeMotion::kScrews:
+      *column = {axis, body.anchor.cross(axis) + axis * link.lead};
+      break;
+    case TreeMotion::kTwoAxes:
+      turning(axis);
+      turning(parent.axes * (link.in_parent.orientation * (joints_[index(number)].turn * link.axis2)));
+      break;
+    case TreeMotion::kTurns:
+      turning(axis);
+      break;
+    default:
+      break;
+  }
 }
 
 void Tree::move(double step) {
@@ -172,7 +199,7 @@ void Tree::move(double step) {
         state.place += rates_.segment<3>(dof + 3) * step;
         break;
       case TreeMotion::kBall: {
-        const Quaternion joint = pose_of_parent(i).orientation * link.in_parent.orientation;
+        const Quaternion joint = parent_of(link).orientation * link.in_parent.orientation;
         state.turn = (turn_by(joint.conjugate() * (rates_.segment<3>(dof) * step)) * state.turn).normalized();
         break;
       }

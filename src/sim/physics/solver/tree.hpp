@@ -59,16 +59,16 @@ class Tree {
   /// The degree of freedom before another on the way to the world; -1: none.
   int before(int dof) const { return before_[index(dof)]; }
 
-  /// Takes joints and rates from poses and velocities of the centres of mass, by link; what the joints do not allow is
-  /// dropped. Call place() after it.
+  /// Takes places, joints and rates from poses and velocities of the centres of mass, by link. Joints and rates drop
+  /// what the joints do not allow.
   void read(const std::vector<Pose>& poses, const std::vector<Twist>& velocities);
   TreeJointState& joint(int link) { return joints_[index(link)]; }
   Eigen::VectorXd& rates() { return rates_; }  ///< rad/s or m/s; of kFree: angular, then linear velocity in the world
   const Eigen::VectorXd& rates() const { return rates_; }
 
-  /// Computes poses and directions of motion from the joints.
+  /// Computes places from the joints.
   void place();
-  /// Computes the velocities of the links from rates.
+  /// Computes the velocities of the links from rates, at the present place.
   void set_velocities(const Eigen::VectorXd& rates);
   Pose pose(int link) const;
   Twist velocity(int link) const { return {bodies_[index(link)].velocity, bodies_[index(link)].spin}; }
@@ -82,17 +82,21 @@ class Tree {
   double entry(int dof, int before) const { return matrix_[row_[index(dof)] + depth_[index(before)]]; }
   /// Computes the mass matrix at the present place, without factors.
   void compute_mass();
-  /// Half the way of a solution: y = L^-T y, for the degrees of freedom from `leaf` to the world; -1: all.
-  void solve_upper(double* y, int leaf) const;
+  /// Of a link about its centre of mass in world axes, kg m^2. Valid after factor() or compute_mass().
+  const Matrix3& inertia(int link) const { return bodies_[index(link)].inertia; }
+  /// Half the way of a solution: y = L^-T y.
+  void solve_upper(double* y) const;
+  /// Likewise for each row of y: y = y L^-1.
+  void solve_upper(Eigen::MatrixXd& y) const;
   /// y = L^-1 y.
   void solve_lower(double* y) const;
   double inverse_diagonal(int dof) const { return inverse_diagonal_[index(dof)]; }
 
-  /// The generalised forces that velocities and wrenches on links (about their centres of mass) need, without those of
-  /// accelerated rates.
+  /// The generalised forces that rates and wrenches on links (about their centres of mass) need, without those of
+  /// accelerated rates. After factor(), and set_velocities() of the same rates.
   void bias(const Eigen::VectorXd& rates, const std::vector<Wrench>& wrenches, Eigen::VectorXd& forces);
   /// Changes the rates by a substep: (M + added) du = step (forces - bias), with the bias at the mean of the rates
-  /// before and after, which makes it of second order.
+  /// before and after, which makes it of second order. After factor(), and set_velocities() of the present rates.
   void push(double step, const std::vector<Wrench>& wrenches, const Eigen::VectorXd& forces);
   /// Moves the joints by the rates.
   void move(double step);
@@ -104,6 +108,7 @@ class Tree {
     int first_dof = 0;
     int dof_count = 0;
     int last_dof = -1;
+    Vector3 axis;  // in the parent
   };
   struct Body {
     Matrix3 axes = Matrix3::Identity();
@@ -121,20 +126,22 @@ class Tree {
   };
 
   static std::size_t index(int number) { return static_cast<std::size_t>(number); }
-  Pose pose_of_parent(int link) const;
-  void place_columns(int link, const Pose& joint);
+  const Body& parent_of(const TreeLink& link) const { return link.parent < 0 ? world_ : bodies_[index(link.parent)]; }
+  void set_origin(const Vector3& origin);
+  void place_joint(int link);
   void accelerate(int link, const Eigen::VectorXd& rates);
 
   std::vector<Placed> links_;
   std::vector<TreeJointState> joints_;
   std::vector<Body> bodies_;
+  Body world_;
   std::vector<TreeColumn> columns_;
   std::vector<int> before_;
   std::vector<std::size_t> depth_;
   std::vector<std::size_t> row_;
   std::vector<double> matrix_;
   std::vector<double> inverse_diagonal_;
-  Eigen::VectorXd rates_, bias_, change_;
+  Eigen::VectorXd rates_, middle_, bias_, change_;
   Vector3 origin_;
 };
 

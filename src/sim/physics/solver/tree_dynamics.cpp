@@ -27,14 +27,13 @@ void Tree::accelerate(int number, const Eigen::VectorXd& rates) {
   const Placed& placed = links_[index(number)];
   const TreeLink& link = placed.link;
   Body& body = bodies_[index(number)];
-  const Body none;
-  const Body& parent = link.parent < 0 ? none : bodies_[index(link.parent)];
+  const Body& parent = parent_of(link);
   if (link.motion == TreeMotion::kFree) {
     body.turn = body.pull = Vector3();
     return;
   }
   body.turn = parent.turn;
-  const Vector3 arm = body.anchor - (link.parent < 0 ? body.anchor : parent.centre);
+  const Vector3 arm = body.anchor - parent.centre;
   Vector3 at_anchor = parent.pull + parent.turn.cross(arm) + parent.spin.cross(parent.spin.cross(arm));
   const int dof = placed.first_dof;
   if (link.motion == TreeMotion::kTurns || link.motion == TreeMotion::kScrews || link.motion == TreeMotion::kTwoAxes) {
@@ -52,7 +51,6 @@ void Tree::accelerate(int number, const Eigen::VectorXd& rates) {
 }
 
 void Tree::bias(const Eigen::VectorXd& rates, const std::vector<Wrench>& wrenches, Eigen::VectorXd& forces) {
-  set_velocities(rates);
   for (int i = 0; i < links(); ++i) {
     accelerate(i, rates);
     Body& body = bodies_[index(i)];
@@ -78,6 +76,7 @@ void Tree::compute_mass() {
   for (int i = 0; i < links(); ++i) {
     Body& body = bodies_[index(i)];
     const Vector3& c = body.centre;
+    body.inertia = body.axes * links_[index(i)].link.inertia * body.axes.transpose();
     body.mass = links_[index(i)].link.mass;
     body.first = c * body.mass;
     body.second = body.inertia + body.mass * (c.squaredNorm() * Matrix3::Identity() - c * c.transpose());
@@ -116,12 +115,17 @@ void Tree::factor(const Eigen::VectorXd& added) {
   }
 }
 
-void Tree::solve_upper(double* y, int leaf) const {
-  for (int k = leaf < 0 ? dofs() - 1 : leaf; k >= 0; k = leaf < 0 ? k - 1 : before_[index(k)]) {
-    const double value = y[k];
-    if (value == 0) continue;
+void Tree::solve_upper(double* y) const {
+  for (int k = dofs() - 1; k >= 0; --k) {
     const double* own = &matrix_[row_[index(k)]];
-    for (int i = before_[index(k)]; i >= 0; i = before_[index(i)]) y[i] -= own[depth_[index(i)]] * value;
+    for (int i = before_[index(k)]; i >= 0; i = before_[index(i)]) y[i] -= own[depth_[index(i)]] * y[k];
+  }
+}
+
+void Tree::solve_upper(Eigen::MatrixXd& y) const {
+  for (int k = dofs() - 1; k >= 0; --k) {
+    const double* own = &matrix_[row_[index(k)]];
+    for (int i = before_[index(k)]; i >= 0; i = before_[index(i)]) y.col(i) -= own[depth_[index(i)]] * y.col(k);
   }
 }
 
@@ -136,12 +140,14 @@ void Tree::push(double step, const std::vector<Wrench>& wrenches, const Eigen::V
   const auto predict = [&](const Eigen::VectorXd& rates) {
     bias(rates, wrenches, bias_);
     change_ = (forces - bias_) * step;
-    solve_upper(change_.data(), -1);
+    solve_upper(change_.data());
     for (int k = 0; k < dofs(); ++k) change_[k] *= inverse_diagonal_[index(k)];
     solve_lower(change_.data());
   };
   predict(rates_);
-  predict(rates_ + change_ / 2);
+  middle_ = rates_ + change_ / 2;
+  set_velocities(middle_);
+  predict(middle_);
   rates_ += change_;
 }
 
@@ -149,7 +155,8 @@ double Tree::kinetic_energy() const {
   double sum = 0;
   for (int i = 0; i < links(); ++i) {
     const Body& body = bodies_[index(i)];
-    sum += links_[index(i)].link.mass * body.velocity.squaredNorm() + body.spin.dot(body.inertia * body.spin);
+    const Vector3 spin = body.axes.transpose() * body.spin;
+    sum += links_[index(i)].link.mass * body.velocity.squaredNorm() + spin.dot(links_[index(i)].link.inertia * spin);
   }
   return sum / 2;
 }

@@ -32,6 +32,7 @@ std::vector<Wrench> weights(const Tree& tree) {
 void step(Tree& tree, double duration, const std::vector<Wrench>& wrenches) {
   tree.place();
   tree.factor(Eigen::VectorXd::Zero(tree.dofs()));
+  tree.set_velocities(tree.rates());
   tree.push(duration, wrenches, Eigen::VectorXd::Zero(tree.dofs()));
   tree.move(duration);
 }
@@ -102,7 +103,7 @@ TEST(MassMatrix, FactorsSolveIt) {
   const Eigen::VectorXd right = Eigen::VectorXd::LinSpaced(n, -1, 2);
   Eigen::VectorXd x = right;
   tree.factor(Eigen::VectorXd::Zero(n));
-  tree.solve_upper(x.data(), -1);
+  tree.solve_upper(x.data());
   for (int k = 0; k < n; ++k) x[k] *= tree.inverse_diagonal(k);
   tree.solve_lower(x.data());
   EXPECT_LT((dense * x - right).norm(), 1e-10);
