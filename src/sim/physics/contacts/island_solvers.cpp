@@ -114,21 +114,21 @@ bool IslandSolvers::step_by_islands(Substep& substep, bool iterate_all) {
 void IslandSolvers::solve(Substep& substep) {
   if (substep.solver == Solver::kOde) return solve_rest(substep);
   tree_solver_.solve(substep);
-  Bodies by_trees;
+  by_trees_.clear();
   bool is_rest = false;
   for (std::size_t i = 0; i < substep.moving.size(); ++i) {
     Islands& islands = substep.contacts.islands;
     const bool is_by_trees = islands.is_by_trees(islands.of(static_cast<int>(i)));
     for (const Link& link : substep.moving[i]->links) {
       if (dBodyIsEnabled(link.body.get()) == 0) continue;
-      if (is_by_trees) by_trees.push_back(link.body.get());
+      if (is_by_trees) by_trees_.push_back(link.body.get());
       is_rest = is_rest || !is_by_trees;
     }
   }
   if (!is_rest) return;
-  disable(by_trees);
+  disable(by_trees_);
   solve_rest(substep);
-  enable(by_trees);
+  enable(by_trees_);
 }
 
 /// The islands that ODE and the contact solver solve.

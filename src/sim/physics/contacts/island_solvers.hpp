@@ -34,6 +34,7 @@ class IslandSolvers {
   ContactSolver contact_solver_;          // of islands without joints
   FrictionIteration friction_iteration_;  // of islands with joints
   TreeSolver tree_solver_;                // likewise, where the scene selects it
+  std::vector<dBodyID> by_trees_;         // the bodies that the last has moved
   std::vector<KeptBody> bodies_before_;   // of the last exact step
 };
 

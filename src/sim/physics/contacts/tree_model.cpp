@@ -107,18 +107,22 @@ void TreeModel::add_link(std::size_t number, int parent) {
   }
 }
 
-bool TreeModel::can_solve(const PlacedModel& model) {
-  if (model.planar_motor.exists()) return false;
+bool TreeModel::knows_joints_of(const PlacedModel& model) {
   std::vector<ObjectId> children;
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const PlacedJoint& joint = model.joints[i];
+    const ObjectId child = model.joints[i].child;
     const std::string& type = model.description.joints[i].type;
-    if (joint.joint == nullptr || joint.meter != nullptr || type == "gearbox") return false;
-    const bool again = std::find(children.begin(), children.end(), joint.child) != children.end();
-    if (again && !closes_loops(type)) return false;
-    children.push_back(joint.child);
+    const bool again = std::find(children.begin(), children.end(), child) != children.end();
+    if (type == "gearbox" || (again && !closes_loops(type))) return false;
+    children.push_back(child);
   }
   return true;
+}
+
+bool TreeModel::has_other_parts(const PlacedModel& model) {
+  return model.planar_motor.exists() ||
+         std::any_of(model.joints.begin(), model.joints.end(),
+                     [](const PlacedJoint& joint) { return joint.joint == nullptr || joint.meter != nullptr; });
 }
 
 void TreeModel::begin(const Vector3& gravity, double step) {

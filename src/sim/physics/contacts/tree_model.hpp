@@ -16,8 +16,10 @@ class TreeModel {
  public:
   explicit TreeModel(const PlacedModel& model);
 
-  /// Whether all joints of a model are of kinds that trees know. Force-torque sensors read ODE's joints.
-  static bool can_solve(const PlacedModel& model);
+  /// Whether all joints of a model are of kinds that trees know.
+  static bool knows_joints_of(const PlacedModel& model);
+  /// Whether a model has parts that act on ODE's joints or read them: force-torque sensors and planar motors.
+  static bool has_other_parts(const PlacedModel& model);
 
   TreeBody body(const Link& link);
 

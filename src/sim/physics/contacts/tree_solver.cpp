@@ -35,11 +35,8 @@ void TreeSolver::choose(Substep& substep) {
     PlacedModel& model = *substep.moving[static_cast<std::size_t>(i)];
     const int island = islands.of(i);
     if (!islands.is_by_trees(island)) continue;
-    if (!TreeModel::can_solve(model)) {
-      islands.set_by_trees(island, false);
-    } else if (model.trees == nullptr) {
-      model.trees = std::make_shared<TreeModel>(model);
-    }
+    if (model.trees == nullptr && TreeModel::knows_joints_of(model)) model.trees = std::make_shared<TreeModel>(model);
+    if (model.trees == nullptr || TreeModel::has_other_parts(model)) islands.set_by_trees(island, false);
   }
 }
 
@@ -49,32 +46,46 @@ TreeBody TreeSolver::body_of(const Collider& collider, const Substep& substep) c
 }
 
 void TreeSolver::solve(Substep& substep) {
+  gather(substep);
+  next_model_ = next_pair_ = 0;
+  while (next_model_ < models_.size()) solve_island(substep);
+}
+
+void TreeSolver::gather(Substep& substep) {
   Contacts& contacts = substep.contacts;
+  models_.clear();
   pairs_.clear();
+  for (std::size_t i = 0; i < substep.moving.size(); ++i) {
+    const int island = contacts.islands.of(static_cast<int>(i));
+    if (!contacts.islands.is_by_trees(island) || !is_awake(*substep.moving[i])) continue;
+    models_.push_back({island, substep.moving[i]->trees.get()});
+  }
   ContactLookup lookup(contacts.memory);
   for (const FoundPair& pair : contacts.found.pairs) {
     const int island = contacts.islands.of(pair.first->model);
     if (contacts.islands.is_by_trees(island)) pairs_.push_back({island, &pair, lookup.pair(pair)});
   }
-  for (int i = 0; i < static_cast<int>(substep.moving.size()); ++i) {
-    if (contacts.islands.of(i) == i && contacts.islands.is_by_trees(i)) solve_island(i, substep);
-  }
+  const auto by_island = [](const auto& a, const auto& b) { return a.island < b.island; };
+  std::stable_sort(models_.begin(), models_.end(), by_island);
+  std::stable_sort(pairs_.begin(), pairs_.end(), by_island);
 }
 
-void TreeSolver::solve_island(int island, Substep& substep) {
+/// Solves the next island.
+void TreeSolver::solve_island(Substep& substep) {
   const double step = substep.duration;
-  std::vector<TreeModel*> models;
-  for (std::size_t i = 0; i < substep.moving.size(); ++i) {
-    if (substep.contacts.islands.of(static_cast<int>(i)) != island) continue;
-    if (is_awake(*substep.moving[i])) models.push_back(substep.moving[i]->trees.get());
-  }
-  if (models.empty()) return;
+  const int island = models_[next_model_].island;
+  const std::size_t first = next_model_;
+  while (next_model_ < models_.size() && models_[next_model_].island == island) ++next_model_;
+  const auto each_model = [&](const auto& act) {
+    for (std::size_t i = first; i < next_model_; ++i) act(*models_[i].model);
+  };
   rows_.clear();
   points_.clear();
-  for (TreeModel* model : models) model->begin(substep.gravity, step);
-  for (TreeModel* model : models) model->add_rows(rows_, step);
-  for (const IslandPair& pair : pairs_) {
-    if (pair.island == island) add_pair(pair, substep);
+  each_model([&](TreeModel& model) { model.begin(substep.gravity, step); });
+  each_model([&](TreeModel& model) { model.add_rows(rows_, step); });
+  while (next_pair_ < pairs_.size() && pairs_[next_pair_].island < island) ++next_pair_;  // of sleeping models
+  for (; next_pair_ < pairs_.size() && pairs_[next_pair_].island == island; ++next_pair_) {
+    add_pair(pairs_[next_pair_], substep);
   }
   rows_.solve();
   for (const PointRows& at : points_) {
@@ -87,7 +98,7 @@ void TreeSolver::solve_island(int island, Substep& substep) {
                         n * rows_.impulse(at.spin + 2)) /
                        step;
   }
-  for (TreeModel* model : models) model->end(rows_, step);
+  each_model([&](TreeModel& model) { model.end(rows_, step); });
 }
 
 void TreeSolver::add_pair(const IslandPair& island_pair, Substep& substep) {

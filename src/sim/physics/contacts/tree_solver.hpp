@@ -24,6 +24,10 @@ class TreeSolver {
     const FoundPair* pair = nullptr;
     const RememberedPair* remembered = nullptr;
   };
+  struct IslandModel {
+    int island = Islands::kNone;
+    TreeModel* model = nullptr;
+  };
   struct PointRows {
     FoundContact* point = nullptr;
     int normal = 0;
@@ -31,13 +35,17 @@ class TreeSolver {
     Vector3 tangent1, tangent2;
   };
 
-  void solve_island(int island, Substep& substep);
+  void gather(Substep& substep);
+  void solve_island(Substep& substep);
   void add_pair(const IslandPair& pair, Substep& substep);
   void add_point(const TreeBody& a, const TreeBody& b, const FoundPair& pair, FoundContact& found,
                  const ExpectedContact& start, double step);
   TreeBody body_of(const Collider& collider, const Substep& substep) const;
 
-  std::vector<IslandPair> pairs_;
+  std::vector<IslandModel> models_;  // that are awake, island by island
+  std::vector<IslandPair> pairs_;    // island by island
+  std::size_t next_model_ = 0;
+  std::size_t next_pair_ = 0;
   std::vector<PointRows> points_;
   ConstraintRows rows_;
 };

@@ -134,7 +134,9 @@ ConeResult ConeSolver::solve(ConeProblem& problem) {
   while (merit > enough && result.newton_steps < kNewtonSteps) {
     ++result.newton_steps;
     if (is_within_bounds(problem)) {
-      step_ = whole_.compute(problem.a).solve(residual_);
+      whole_.factor(problem.a);
+      step_ = residual_;
+      whole_.solve(step_);
     } else {
       differentiate(problem);
       step_ = sloped_.compute(slope_).solve(residual_);

@@ -8,11 +8,12 @@
 // Gauss-Seidel.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <limits>
 #include <vector>
+
+#include "physics/solver/cholesky.hpp"
 
 namespace bubblesim {
 
@@ -55,7 +56,7 @@ class ConeSolver {
   Eigen::VectorXd trial_;     // x - scale v
   Eigen::VectorXd before_, step_;
   Eigen::MatrixXd slope_;
-  Eigen::LLT<Eigen::MatrixXd> whole_;            // of A
+  Cholesky whole_;                               // of A
   Eigen::PartialPivLU<Eigen::MatrixXd> sloped_;  // of the slope
 };
 

@@ -2,15 +2,12 @@
 #include "physics/solver/constraint_rows.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace bubblesim {
 namespace {
 
 constexpr Eigen::Index kFew = 32;   // rows, for which Eigen's blocks for large products do not pay
 constexpr double kSingular = 1e-9;  // of a diagonal element, added where rows repeat each other
-
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 std::size_t at(int number) { return static_cast<std::size_t>(number); }
 
@@ -80,6 +77,46 @@ void ConstraintRows::set(int row, double target, double softness, double start) 
   rows_[at(row)] = {target, softness, start};
 }
 
+/// Adds the part of a tree to the problem.
+void ConstraintRows::gather(RowsOfTree& own) {
+  const int rows = static_cast<int>(own.rows.size());
+  const int dofs = own.tree->dofs();
+  own.solved.set_zero(rows, dofs);
+  for (int r = 0; r < rows; ++r) {
+    const double* given = own.given.data() + at(r) * at(dofs);
+    double velocity = 0;
+    for (int k = 0; k < dofs; ++k) {
+      own.solved[k][r] = given[k];
+      velocity += given[k] * own.tree->rates()[k];
+    }
+    problem_.b[own.rows[at(r)]] -= velocity;
+  }
+  own.tree->solve_upper(own.solved);
+  square_.set_zero(rows, rows);
+  for (int k = 0; k < dofs; ++k) {
+    const double* column = own.solved[k];
+    for (int c = 0; c < rows; ++c) {
+      if (column[c] != 0) square_.add(square_[c], column[c] * own.tree->inverse_diagonal(k), column, c);
+    }
+  }
+  for (int c = 0; c < rows; ++c) {
+    const double* column = square_[c];
+    for (int r = c; r < rows; ++r) problem_.a(own.rows[at(r)], own.rows[at(c)]) += column[r];
+  }
+}
+
+/// u += L^-1 D^-1 L^-T J^T x
+void ConstraintRows::apply(const RowsOfTree& own) {
+  change_.resize(own.tree->dofs());
+  for (int k = 0; k < own.tree->dofs(); ++k) {
+    double sum = 0;
+    for (int r = 0; r < own.solved.rows(); ++r) sum += own.solved[k][r] * problem_.x[own.rows[at(r)]];
+    change_[k] = sum * own.tree->inverse_diagonal(k);
+  }
+  own.tree->solve_lower(change_.data());
+  own.tree->rates() += change_;
+}
+
 ConeResult ConstraintRows::solve() {
   const int n = count();
   if (n == 0) return {};
@@ -90,39 +127,13 @@ ConeResult ConstraintRows::solve() {
     problem_.b[r] = rows_[at(r)].target;
     problem_.x[r] = rows_[at(r)].start;
   }
-  for (std::size_t i = 0; i < used_; ++i) {
-    RowsOfTree& own = trees_[i];
-    const auto count = static_cast<Eigen::Index>(own.rows.size());
-    own.solved = Eigen::Map<const RowMajor>(own.given.data(), count, own.tree->dofs());
-    part_.noalias() = own.solved * own.tree->rates();
-    own.tree->solve_upper(own.solved);
-    for (int k = 0; k < own.tree->dofs(); ++k) own.solved.col(k) *= std::sqrt(own.tree->inverse_diagonal(k));
-    if (count <= kFew) {
-      square_.noalias() = own.solved.lazyProduct(own.solved.transpose());
-    } else {
-      square_.noalias() = own.solved * own.solved.transpose();
-    }
-    for (Eigen::Index c = 0; c < count; ++c) {
-      const int column = own.rows[static_cast<std::size_t>(c)];
-      problem_.b[column] -= part_[c];
-      for (Eigen::Index r = 0; r < count; ++r)
-        problem_.a(own.rows[static_cast<std::size_t>(r)], column) += square_(r, c);
-    }
-  }
-  for (int r = 0; r < n; ++r) {
-    problem_.a(r, r) += std::max(rows_[at(r)].softness, kSingular * problem_.a(r, r));
+  for (std::size_t i = 0; i < used_; ++i) gather(trees_[i]);
+  for (int c = 0; c < n; ++c) {
+    problem_.a(c, c) += std::max(rows_[at(c)].softness, kSingular * problem_.a(c, c));
+    for (int r = c + 1; r < n; ++r) problem_.a(c, r) = problem_.a(r, c);
   }
   const ConeResult result = solver_.solve(problem_);
-  // u += L^-1 D^-1 L^-T J^T x
-  for (std::size_t i = 0; i < used_; ++i) {
-    const RowsOfTree& own = trees_[i];
-    part_.resize(own.solved.rows());
-    for (Eigen::Index r = 0; r < part_.size(); ++r) part_[r] = problem_.x[own.rows[static_cast<std::size_t>(r)]];
-    change_.noalias() = own.solved.transpose() * part_;
-    for (int k = 0; k < own.tree->dofs(); ++k) change_[k] *= std::sqrt(own.tree->inverse_diagonal(k));
-    own.tree->solve_lower(change_.data());
-    own.tree->rates() += change_;
-  }
+  for (std::size_t i = 0; i < used_; ++i) apply(trees_[i]);
   return result;
 }
 

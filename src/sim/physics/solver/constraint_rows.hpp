@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bubblesim/math.hpp"
+#include "physics/solver/columns.hpp"
 #include "physics/solver/cone_problem.hpp"
 #include "physics/solver/tree.hpp"
 
@@ -46,9 +47,11 @@ class ConstraintRows {
     Tree* tree = nullptr;
     std::vector<int> rows;      // their numbers
     std::vector<double> given;  // J: rows x degrees of freedom, row by row; 0 beside the ways to the world
-    Eigen::MatrixXd solved;     // J L^-1 D^-1/2, so that its square is the part of A
+    Columns solved;             // J L^-1
   };
 
+  void gather(RowsOfTree& own);
+  void apply(const RowsOfTree& own);
   int add(const TreeBody& first, const TreeBody& second, const Vector3& turn, const Vector3& push,
           const Vector3& point);
   /// The values of the last row in a tree, which are 0 at first.
@@ -60,8 +63,8 @@ class ConstraintRows {
   std::size_t used_ = 0;
   ConeProblem problem_;
   ConeSolver solver_;
-  Eigen::MatrixXd square_;
-  Eigen::VectorXd part_, change_;
+  Columns square_;
+  Eigen::VectorXd change_;
 };
 
 }  // namespace bubblesim

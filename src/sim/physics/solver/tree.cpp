@@ -70,10 +70,11 @@ void Tree::set_origin(const Vector3& origin) {
 void Tree::read(const std::vector<Pose>& poses, const std::vector<Twist>& velocities) {
   set_origin(poses[0].position);
   for (int i = 0; i < links(); ++i) {
-    const TreeLink& link = links_[index(i)].link;
+    const Placed& placed = links_[index(i)];
+    const TreeLink& link = placed.link;
     TreeJointState& state = joints_[index(i)];
     Body& body = bodies_[index(i)];
-    const int dof = first_dof(i);
+    const int dof = placed.first_dof;
     const Pose& here = poses[index(i)];
     const Twist& now = velocities[index(i)];
     body.orientation = here.orientation;
@@ -87,20 +88,22 @@ void Tree::read(const std::vector<Pose>& poses, const std::vector<Twist>& veloci
       place_joint(i);
       continue;
     }
-    const Pose parent = link.parent < 0 ? Pose() : poses[index(link.parent)];
+    const Body& parent = parent_of(link);
     const Twist carried = link.parent < 0 ? Twist() : velocities[index(link.parent)];
-    const Pose joint = parent * link.in_parent;
-    const Pose moved = here * link.in_child;
-    const Quaternion turn = joint.orientation.conjugate() * moved.orientation;
+    const Quaternion joint = parent.orientation * link.in_parent.orientation;
+    const Quaternion turn = joint.conjugate() * (here.orientation * link.in_child.orientation);
     const Vector3 spin = now.angular - carried.angular;
-    const Vector3 axis = joint.orientation * link.axis;
+    const Vector3 axis = parent.axes * placed.axis;
     if (turns(link.motion)) {
       state.turn = turn_about(link.axis, turn);
       rates_[dof] = axis.dot(spin);
     }
-    if (slides(link.motion)) state.slide = axis.dot(moved.position - joint.position);
+    if (slides(link.motion)) {
+      const Vector3 anchor = body.centre + body.axes * link.in_child.position;
+      state.slide = axis.dot(anchor - parent.centre - parent.axes * link.in_parent.position);
+    }
     if (link.motion == TreeMotion::kSlides) {
-      const Vector3 at_parent = carried.linear + carried.angular.cross(here.position - parent.position);
+      const Vector3 at_parent = carried.linear + carried.angular.cross(body.centre - parent.centre);
       rates_[dof] = axis.dot(now.linear - at_parent);
     }
     if (link.motion == TreeMotion::kBall) {
@@ -110,7 +113,7 @@ void Tree::read(const std::vector<Pose>& poses, const std::vector<Twist>& veloci
     if (link.motion == TreeMotion::kTwoAxes) {
       state.turn = turn_about(link.axis, angle_about(link.axis, link.axis2, turn * link.axis2));
       state.turn2 = turn_about(link.axis2, -angle_about(link.axis2, link.axis, turn.conjugate() * link.axis));
-      const Vector3 axis2 = joint.orientation * (state.turn * link.axis2);
+      const Vector3 axis2 = joint * (state.turn * link.axis2);
       // The part of the spin in the plane of the axes, which need not be at right angles.
       const double mixed = axis.dot(axis2);
       const double a = axis.dot(spin);

@@ -12,6 +12,7 @@
 
 #include "bubblesim/math.hpp"
 #include "bubblesim/wrench.hpp"
+#include "physics/solver/columns.hpp"
 
 namespace bubblesim {
 
@@ -87,7 +88,7 @@ class Tree {
   /// Half the way of a solution: y = L^-T y.
   void solve_upper(double* y) const;
   /// Likewise for each row of y: y = y L^-1.
-  void solve_upper(Eigen::MatrixXd& y) const;
+  void solve_upper(Columns& y) const;
   /// y = L^-1 y.
   void solve_lower(double* y) const;
   double inverse_diagonal(int dof) const { return inverse_diagonal_[index(dof)]; }

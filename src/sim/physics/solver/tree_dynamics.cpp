@@ -122,10 +122,10 @@ void Tree::solve_upper(double* y) const {
   }
 }
 
-void Tree::solve_upper(Eigen::MatrixXd& y) const {
+void Tree::solve_upper(Columns& y) const {
   for (int k = dofs() - 1; k >= 0; --k) {
     const double* own = &matrix_[row_[index(k)]];
-    for (int i = before_[index(k)]; i >= 0; i = before_[index(i)]) y.col(i) -= own[depth_[index(i)]] * y.col(k);
+    for (int i = before_[index(k)]; i >= 0; i = before_[index(i)]) y.add(y[i], -own[depth_[index(i)]], y[k]);
   }
 }
 

@@ -17,7 +17,7 @@ inline Quaternion turn_about(const Vector3& axis, double angle) {
 /// The part of a rotation about a unit axis.
 inline Quaternion turn_about(const Vector3& axis, const Quaternion& turn) {
   const double sine = axis.dot(turn.vec());
-  const double length = std::hypot(sine, turn.w());
+  const double length = std::sqrt(sine * sine + turn.w() * turn.w());
   if (length == 0) return {};
   const Vector3 part = axis * (sine / length);
   return {turn.w() / length, part.x(), part.y(), part.z()};
