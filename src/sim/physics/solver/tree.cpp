@@ -38,6 +38,7 @@ int Tree::add(const TreeLink& link) {
   placed.axis = link.in_parent.orientation * link.axis;
   for (int i = 0; i < placed.dof_count; ++i) {
     before_.push_back(placed.last_dof);
+    run_.push_back(placed.last_dof >= 0 && placed.last_dof == dofs() - 1 ? run_.back() : dofs());
     depth_.push_back(placed.last_dof < 0 ? 0 : depth_[index(placed.last_dof)] + 1);
     row_.push_back(matrix_.size());
     matrix_.resize(matrix_.size() + depth_.back() + 1);

@@ -138,6 +138,7 @@ class Tree {
   Body world_;
   std::vector<TreeColumn> columns_;
   std::vector<int> before_;
+  std::vector<int> run_;  // the first of the degrees of freedom that lead to this one with consecutive numbers
   std::vector<std::size_t> depth_;
   std::vector<std::size_t> row_;
   std::vector<double> matrix_;

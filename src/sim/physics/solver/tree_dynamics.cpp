@@ -3,6 +3,12 @@
 #include "physics/solver/tree.hpp"
 
 namespace bubblesim {
+namespace {
+
+using Values = Eigen::Map<Eigen::VectorXd>;
+using Constants = Eigen::Map<const Eigen::VectorXd>;
+
+}  // namespace
 
 void Tree::set_velocities(const Eigen::VectorXd& rates) {
   for (int i = 0; i < links(); ++i) {
@@ -108,8 +114,8 @@ void Tree::factor(const Eigen::VectorXd& added) {
     const double inverse = inverse_diagonal_[index(k)] = 1 / own[depth_[index(k)]];
     for (int i = before_[index(k)]; i >= 0; i = before_[index(i)]) {
       const double part = own[depth_[index(i)]] * inverse;
-      double* above = &matrix_[row_[index(i)]];
-      for (std::size_t j = 0; j <= depth_[index(i)]; ++j) above[j] -= part * own[j];
+      const auto count = static_cast<Eigen::Index>(depth_[index(i)] + 1);
+      Values(&matrix_[row_[index(i)]], count) -= part * Values(own, count);
       own[depth_[index(i)]] = part;
     }
   }
@@ -118,7 +124,10 @@ void Tree::factor(const Eigen::VectorXd& added) {
 void Tree::solve_upper(double* y) const {
   for (int k = dofs() - 1; k >= 0; --k) {
     const double* own = &matrix_[row_[index(k)]];
-    for (int i = before_[index(k)]; i >= 0; i = before_[index(i)]) y[i] -= own[depth_[index(i)]] * y[k];
+    for (int last = before_[index(k)]; last >= 0; last = before_[index(run_[index(last)])]) {
+      const int first = run_[index(last)];
+      Values(y + first, last - first + 1) -= y[k] * Constants(own + depth_[index(first)], last - first + 1);
+    }
   }
 }
 
@@ -132,7 +141,10 @@ void Tree::solve_upper(Columns& y) const {
 void Tree::solve_lower(double* y) const {
   for (int k = 0; k < dofs(); ++k) {
     const double* own = &matrix_[row_[index(k)]];
-    for (int i = before_[index(k)]; i >= 0; i = before_[index(i)]) y[k] -= own[depth_[index(i)]] * y[i];
+    for (int last = before_[index(k)]; last >= 0; last = before_[index(run_[index(last)])]) {
+      const int first = run_[index(last)];
+      y[k] -= Constants(y + first, last - first + 1).dot(Constants(own + depth_[index(first)], last - first + 1));
+    }
   }
 }
 
