@@ -150,6 +150,7 @@ void TreeModel::begin(const Vector3& gravity, double step) {
     forces_[axis.dof] = coefficient * (damper->velocity - tree_.rates()[axis.dof]);
   }
   tree_.factor(added_);
+  tree_.find_momenta(momenta_);
   for (std::size_t i = 0; i < count; ++i) {
     const Link& link = model_.links[places_[i]];
     dBodyID body = link.body.get();
@@ -160,6 +161,11 @@ void TreeModel::begin(const Vector3& gravity, double step) {
     const Twist allowed = tree_.velocity(static_cast<int>(i));
     wrench.force += (velocities_[i].linear - allowed.linear) * (link.mass / step);
     wrench.torque += tree_.inertia(static_cast<int>(i)) * (velocities_[i].angular - allowed.angular) / step;
+    const int root = tree_.free_root(static_cast<int>(i));
+    if (root < 0) continue;
+    TreeMomentum& momentum = momenta_[static_cast<std::size_t>(root)];
+    momentum.linear += wrench.force * step;
+    momentum.angular += (wrench.torque + (poses_[i].position - tree_.origin()).cross(wrench.force)) * step;
   }
   tree_.push(step, wrenches_, forces_);
 }
@@ -267,11 +273,27 @@ void TreeModel::close_loop(std::size_t number, ConstraintRows& rows, double step
   }
 }
 
-void TreeModel::end(const ConstraintRows& rows, double step) {
-  for (const MotorRow& motor : motors_) motor.meter->add(rows.impulse(motor.row));
+/// Moves the tree. Only what acts on it from outside changes the momentum of a robot: the efforts of its joints do not.
+void TreeModel::move(const ConstraintRows& rows, double step) {
+  const Vector3 before = tree_.origin();
+  for (int i = 0; i < tree_.links(); ++i) {
+    if (tree_.free_root(i) != i) continue;
+    TreeMomentum& momentum = momenta_[static_cast<std::size_t>(i)];
+    const auto impulse = [&](int k) { return rows.impulse_on(tree_, tree_.first_dof(i) + k); };
+    const Vector3 linear(impulse(3), impulse(4), impulse(5));
+    momentum.linear += linear;
+    momentum.angular += Vector3(impulse(0), impulse(1), impulse(2)) + (tree_.pose(i).position - before).cross(linear);
+  }
   tree_.move(step);
   tree_.place();
   tree_.set_velocities(tree_.rates());
+  for (TreeMomentum& momentum : momenta_) momentum.angular += (before - tree_.origin()).cross(momentum.linear);
+  tree_.set_momenta(momenta_);
+}
+
+void TreeModel::end(const ConstraintRows& rows, double step) {
+  for (const MotorRow& motor : motors_) motor.meter->add(rows.impulse(motor.row));
+  move(rows, step);
   for (std::size_t i = 0; i < places_.size(); ++i) {
     dBodyID body = model_.links[places_[i]].body.get();
     const Pose pose = tree_.pose(static_cast<int>(i));

@@ -48,6 +48,7 @@ class TreeModel {
   int add_axis_row(const Axis& axis, ConstraintRows& rows);
   void add_stops(const Axis& axis, ConstraintRows& rows, double step);
   void close_loop(std::size_t joint, ConstraintRows& rows, double step);
+  void move(const ConstraintRows& rows, double step);
   TreeBody body_of(ObjectId link);
   const Link& link_of(ObjectId link) const;
   std::size_t place_of(ObjectId link) const;
@@ -62,6 +63,7 @@ class TreeModel {
   std::vector<Pose> poses_;
   std::vector<Twist> velocities_;
   std::vector<Wrench> wrenches_;
+  std::vector<TreeMomentum> momenta_;  // to be reached
   Eigen::VectorXd forces_, added_;
 };
 

@@ -17,9 +17,15 @@ void MotionMeter::begin() {
   before_ = body_velocity(body_);
 }
 
-void MotionMeter::end(double step, const Vector3& gravity) {
-  // ODE's forces belong to the positions at the start of the substep. Acceleration of a point of a rigid body: that of
-  // its centre of mass, the Euler and the centripetal acceleration.
+void MotionMeter::end(double step, const Vector3& gravity, ForcePlace place) {
+  if (place == ForcePlace::kOnTheWay) {
+    const Quaternion after = body_pose(body_).orientation;
+    const Quaternion before = orientation_ * in_body_.orientation.conjugate();
+    const Quaternion middle = before.slerp(0.5, after);
+    orientation_ = middle * in_body_.orientation;
+    lever_ = middle * in_body_.position;
+  }
+  // Acceleration of a point of a rigid body: that of its centre of mass, the Euler and the centripetal acceleration.
   const Twist after = body_velocity(body_);
   const Vector3 angular = (after.angular - before_.angular) / step;
   const Vector3 turning = (after.angular + before_.angular) / 2;

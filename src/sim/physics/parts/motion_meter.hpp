@@ -9,6 +9,12 @@
 
 namespace bubblesim {
 
+/// Where a body was when the forces of a substep acted on it, by its solver.
+enum class ForcePlace {
+  kStart,    ///< ODE's
+  kOnTheWay  ///< trees: velocities are those at the places before and after
+};
+
 class MotionMeter {
  public:
   /// `in_body`: pose of the unit relative to the body's centre of mass and axes.
@@ -22,7 +28,7 @@ class MotionMeter {
   void clear();
   /// Call before and after each substep.
   void begin();
-  void end(double step, const Vector3& gravity);
+  void end(double step, const Vector3& gravity, ForcePlace place);
 
   void transfer(StateArchive& archive) { archive(specific_force_, angular_velocity_); }
 

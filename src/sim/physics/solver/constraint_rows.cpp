@@ -117,6 +117,18 @@ void ConstraintRows::apply(const RowsOfTree& own) {
   own.tree->rates() += change_;
 }
 
+double ConstraintRows::impulse_on(const Tree& tree, int dof) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < used_; ++i) {
+    const RowsOfTree& own = trees_[i];
+    if (own.tree != &tree) continue;
+    for (std::size_t r = 0; r < own.rows.size(); ++r) {
+      sum += own.given[r * at(tree.dofs()) + at(dof)] * problem_.x[own.rows[r]];
+    }
+  }
+  return sum;
+}
+
 ConeResult ConstraintRows::solve() {
   const int n = count();
   if (n == 0) return {};

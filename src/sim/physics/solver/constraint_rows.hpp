@@ -35,6 +35,8 @@ class ConstraintRows {
   /// Finds the impulses and changes the rates of the trees, which are factored.
   ConeResult solve();
   double impulse(int row) const { return problem_.x[row]; }
+  /// The sum of the impulses of all rows on a degree of freedom, N s or N m s.
+  double impulse_on(const Tree& tree, int dof) const;
 
  private:
   struct Row {

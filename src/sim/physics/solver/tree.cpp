@@ -35,6 +35,7 @@ int Tree::add(const TreeLink& link) {
   placed.first_dof = dofs();
   placed.dof_count = count_of(link.motion);
   placed.last_dof = link.parent < 0 ? -1 : last_dof(link.parent);
+  placed.free_root = link.motion == TreeMotion::kFree ? number : link.parent < 0 ? -1 : free_root(link.parent);
   placed.axis = link.in_parent.orientation * link.axis;
   for (int i = 0; i < placed.dof_count; ++i) {
     before_.push_back(placed.last_dof);

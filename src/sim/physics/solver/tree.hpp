@@ -39,6 +39,12 @@ struct TreeJointState {
   Vector3 place;     ///< m, of kFree: the centre of mass in the world
 };
 
+/// Of links that hang together.
+struct TreeMomentum {
+  Vector3 linear;   ///< N s
+  Vector3 angular;  ///< N m s, about the origin of the tree
+};
+
 /// A direction of motion: a point at r moves with `slide` + `turn` x r.
 struct TreeColumn {
   Vector3 turn;
@@ -103,12 +109,22 @@ class Tree {
   void move(double step);
   double kinetic_energy() const;
 
+  /// The link of kFree that carries a link; -1: the world carries it.
+  int free_root(int link) const { return links_[index(link)].free_root; }
+  /// Computes the momentum of what each link of kFree carries, by that link; the others have none. After
+  /// set_velocities().
+  void find_momenta(std::vector<TreeMomentum>& found) const;
+  /// Changes the velocities of links of kFree, and with them that of all that they carry as if it were rigid, until
+  /// they have these momenta. The rates keep their values.
+  void set_momenta(const std::vector<TreeMomentum>& wanted);
+
  private:
   struct Placed {
     TreeLink link;
     int first_dof = 0;
     int dof_count = 0;
     int last_dof = -1;
+    int free_root = -1;
     Vector3 axis;  // in the parent
   };
   struct Body {
@@ -144,6 +160,7 @@ class Tree {
   std::vector<double> matrix_;
   std::vector<double> inverse_diagonal_;
   Eigen::VectorXd rates_, middle_, bias_, change_;
+  std::vector<TreeMomentum> present_;
   Vector3 origin_;
 };
 

@@ -94,13 +94,17 @@ void begin_meters(const MovingModels& moving) {
   }
 }
 
-void end_meters(const MovingModels& moving, const Vector3& gravity, double step) {
-  for (PlacedModel* model : moving) {
-    for (auto& [index, meter] : model->motion_meters) meter.end(step, gravity);
-    for (const PlacedJoint& placed : model->joints) {
-      if (placed.meter != nullptr) placed.meter->end(step);
+void end_meters(Substep& substep) {
+  Islands& islands = substep.contacts.islands;
+  for (std::size_t i = 0; i < substep.moving.size(); ++i) {
+    PlacedModel& model = *substep.moving[i];
+    const bool is_by_trees = islands.is_by_trees(islands.of(static_cast<int>(i)));
+    const ForcePlace place = is_by_trees ? ForcePlace::kOnTheWay : ForcePlace::kStart;
+    for (auto& [index, meter] : model.motion_meters) meter.end(substep.duration, substep.gravity, place);
+    for (const PlacedJoint& placed : model.joints) {
+      if (placed.meter != nullptr) placed.meter->end(substep.duration);
       for (std::size_t axis = 0; axis < placed.motor_meters.size(); ++axis) {
-        if (placed.joint->is_driven(static_cast<int>(axis))) placed.motor_meters[axis]->gather(step);
+        if (placed.joint->is_driven(static_cast<int>(axis))) placed.motor_meters[axis]->gather(substep.duration);
       }
     }
   }
@@ -126,7 +130,7 @@ void simulate(WorldState& state, const Wrenches& wrenches, double step) {
     gather_contacts(state.contacts);
     rest(substep);
     state.touches.add(state.contacts.found, step);
-    end_meters(moving, state.gravity, step);
+    end_meters(substep);
   } catch (const Diverged&) {
     state.diverged = state.interrupted = true;
     throw;
