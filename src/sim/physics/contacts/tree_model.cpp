@@ -102,6 +102,7 @@ void TreeModel::add_link(std::size_t number, int parent) {
   link.in_child = in_body(model_.links[place], joint.in_child);
   numbers_[place] = tree_.add(link);
   places_.push_back(place);
+  tree_joints_.push_back({number, numbers_[place]});
   for (int k = 0; k < joint.joint->axis_count(); ++k) {
     axes_.push_back({number, k, tree_.first_dof(numbers_[place]) + k, {}});
   }
@@ -119,10 +120,12 @@ bool TreeModel::knows_joints_of(const PlacedModel& model) {
   return true;
 }
 
-bool TreeModel::has_other_parts(const PlacedModel& model) {
-  return model.planar_motor.exists() ||
-         std::any_of(model.joints.begin(), model.joints.end(),
-                     [](const PlacedJoint& joint) { return joint.joint == nullptr || joint.meter != nullptr; });
+bool TreeModel::knows_parts() const {
+  return !model_.planar_motor.exists() &&
+         std::all_of(model_.joints.begin(), model_.joints.end(),
+                     [](const auto& joint) { return joint.joint != nullptr; }) &&
+         std::all_of(loops_.begin(), loops_.end(),
+                     [&](std::size_t joint) { return model_.joints[joint].meter == nullptr; });
 }
 
 void TreeModel::begin(const Vector3& gravity, double step) {
@@ -150,22 +153,21 @@ void TreeModel::begin(const Vector3& gravity, double step) {
     forces_[axis.dof] = coefficient * (damper->velocity - tree_.rates()[axis.dof]);
   }
   tree_.factor(added_);
-  tree_.find_momenta(momenta_);
+  loose_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Link& link = model_.links[places_[i]];
     dBodyID body = link.body.get();
     Wrench& wrench = wrenches_[i];
     wrench = {to_vector(dBodyGetForce(body)), to_vector(dBodyGetTorque(body))};
     if (dBodyGetGravityMode(body) != 0) wrench.force += gravity * link.mass;
+    const Matrix3& inertia = tree_.inertia(static_cast<int>(i));
+    const Vector3 linear = velocities_[i].linear * link.mass + wrench.force * step;
+    const Vector3 turning = inertia * velocities_[i].angular + wrench.torque * step;
+    loose_[i] = {linear, turning + (poses_[i].position - tree_.origin()).cross(linear)};
     // A velocity that the joints do not allow, such as one that was set, acts as an impulse.
     const Twist allowed = tree_.velocity(static_cast<int>(i));
     wrench.force += (velocities_[i].linear - allowed.linear) * (link.mass / step);
-    wrench.torque += tree_.inertia(static_cast<int>(i)) * (velocities_[i].angular - allowed.angular) / step;
-    const int root = tree_.free_root(static_cast<int>(i));
-    if (root < 0) continue;
-    TreeMomentum& momentum = momenta_[static_cast<std::size_t>(root)];
-    momentum.linear += wrench.force * step;
-    momentum.angular += (wrench.torque + (poses_[i].position - tree_.origin()).cross(wrench.force)) * step;
+    wrench.torque += inertia * (velocities_[i].angular - allowed.angular) / step;
   }
   tree_.push(step, wrenches_, forces_);
 }
@@ -276,24 +278,45 @@ void TreeModel::close_loop(std::size_t number, ConstraintRows& rows, double step
 /// Moves the tree. Only what acts on it from outside changes the momentum of a robot: the efforts of its joints do not.
 void TreeModel::move(const ConstraintRows& rows, double step) {
   const Vector3 before = tree_.origin();
-  for (int i = 0; i < tree_.links(); ++i) {
-    if (tree_.free_root(i) != i) continue;
-    TreeMomentum& momentum = momenta_[static_cast<std::size_t>(i)];
-    const auto impulse = [&](int k) { return rows.impulse_on(tree_, tree_.first_dof(i) + k); };
-    const Vector3 linear(impulse(3), impulse(4), impulse(5));
-    momentum.linear += linear;
-    momentum.angular += Vector3(impulse(0), impulse(1), impulse(2)) + (tree_.pose(i).position - before).cross(linear);
-  }
+  rows.add_impulses(tree_, loose_);
   tree_.move(step);
   tree_.place();
   tree_.set_velocities(tree_.rates());
-  for (TreeMomentum& momentum : momenta_) momentum.angular += (before - tree_.origin()).cross(momentum.linear);
+  momenta_.assign(places_.size(), {});
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    loose_[i].angular += (before - tree_.origin()).cross(loose_[i].linear);
+    const int root = tree_.free_root(static_cast<int>(i));
+    if (root < 0) continue;
+    momenta_[static_cast<std::size_t>(root)].linear += loose_[i].linear;
+    momenta_[static_cast<std::size_t>(root)].angular += loose_[i].angular;
+  }
   tree_.set_momenta(momenta_);
+}
+
+/// What a joint transmits is what the links behind it have got beside what acts on them from outside.
+void TreeModel::report_reactions() {
+  std::vector<bool> is_behind;
+  for (const TreeJoint& joint : tree_joints_) {
+    WrenchMeter* meter = model_.joints[joint.joint].meter.get();
+    if (meter == nullptr) continue;
+    TreeMomentum sum;
+    is_behind.assign(places_.size(), false);
+    for (int i = joint.child; i < tree_.links(); ++i) {
+      const int parent = tree_.parent(i);
+      if (i != joint.child && (parent < 0 || !is_behind[static_cast<std::size_t>(parent)])) continue;
+      is_behind[static_cast<std::size_t>(i)] = true;
+      const TreeMomentum now = tree_.momentum(i);
+      sum.linear += now.linear - loose_[static_cast<std::size_t>(i)].linear;
+      sum.angular += now.angular - loose_[static_cast<std::size_t>(i)].angular;
+    }
+    meter->report({sum.linear, sum.angular}, tree_.origin());
+  }
 }
 
 void TreeModel::end(const ConstraintRows& rows, double step) {
   for (const MotorRow& motor : motors_) motor.meter->add(rows.impulse(motor.row));
   move(rows, step);
+  report_reactions();
   for (std::size_t i = 0; i < places_.size(); ++i) {
     dBodyID body = model_.links[places_[i]].body.get();
     const Pose pose = tree_.pose(static_cast<int>(i));

@@ -18,8 +18,8 @@ class TreeModel {
 
   /// Whether all joints of a model are of kinds that trees know.
   static bool knows_joints_of(const PlacedModel& model);
-  /// Whether a model has parts that act on ODE's joints or read them: force-torque sensors and planar motors.
-  static bool has_other_parts(const PlacedModel& model);
+  /// Whether the present parts of the model are known: not planar motors and sensors in joints that close a loop.
+  bool knows_parts() const;
 
   TreeBody body(const Link& link);
 
@@ -38,6 +38,10 @@ class TreeModel {
     int dof;            // -1: of a joint that closes a loop
     AxisForces forces;  // in this substep
   };
+  struct TreeJoint {
+    std::size_t joint;  // of the model
+    int child;          // in the tree
+  };
   struct MotorRow {
     MotorMeter* meter;
     int row;
@@ -49,6 +53,7 @@ class TreeModel {
   void add_stops(const Axis& axis, ConstraintRows& rows, double step);
   void close_loop(std::size_t joint, ConstraintRows& rows, double step);
   void move(const ConstraintRows& rows, double step);
+  void report_reactions();
   TreeBody body_of(ObjectId link);
   const Link& link_of(ObjectId link) const;
   std::size_t place_of(ObjectId link) const;
@@ -58,12 +63,14 @@ class TreeModel {
   std::vector<int> numbers_;         // in the tree, by link of the model
   std::vector<std::size_t> places_;  // the reverse
   std::vector<Axis> axes_;
-  std::vector<std::size_t> loops_;  // joints
+  std::vector<TreeJoint> tree_joints_;
+  std::vector<std::size_t> loops_;  // the other joints
   std::vector<MotorRow> motors_;
   std::vector<Pose> poses_;
   std::vector<Twist> velocities_;
   std::vector<Wrench> wrenches_;
-  std::vector<TreeMomentum> momenta_;  // to be reached
+  std::vector<TreeMomentum> loose_;    // the links' at the end of the substep if they were not jointed
+  std::vector<TreeMomentum> momenta_;  // of what links of kFree carry, likewise
   Eigen::VectorXd forces_, added_;
 };
 

@@ -49,18 +49,38 @@ void WrenchMeter::clear() {
 void WrenchMeter::begin() {
   // ODE leaves the feedback of a motor unchanged while it has no force.
   for (Report& report : reports_) report.feedback = {};
+  reported_.reset();
   child_pose_ = link_pose(child_);
   child_centre_ = to_vector(dBodyGetPosition(child_.body.get()));
   if (parent_ != nullptr) parent_axes_ = link_pose(*parent_).orientation;
 }
 
-void WrenchMeter::end(double step) {
-  Wrench total;  // of the parent on the child, about the child's centre of mass
+void WrenchMeter::report(const Wrench& impulse, const Vector3& point) {
+  reported_ = impulse;
+  reported_about_ = point;
+}
+
+Wrench WrenchMeter::from_feedback() const {
+  Wrench total;
   for (const Report& report : reports_) {
     const Wrench wrench = on_child(report.joint, report.feedback, child_.body.get());
     total.force += wrench.force;
     total.torque += wrench.torque;
   }
+  return total;
+}
+
+Wrench WrenchMeter::from_solver(double step) {
+  const Pose now = link_pose(child_);
+  child_pose_ = {(child_pose_.position + now.position) / 2, child_pose_.orientation.slerp(0.5, now.orientation)};
+  child_centre_ = (child_centre_ + to_vector(dBodyGetPosition(child_.body.get()))) / 2;
+  if (parent_ != nullptr) parent_axes_ = parent_axes_.slerp(0.5, link_pose(*parent_).orientation);
+  const Vector3 force = reported_->force / step;
+  return {force, reported_->torque / step + (reported_about_ - child_centre_).cross(force)};
+}
+
+void WrenchMeter::end(double step) {
+  const Wrench total = reported_ ? from_solver(step) : from_feedback();  // on the child, about its centre of mass
   const auto torque_about = [&](const Vector3& point) -> Vector3 {
     return total.torque + (child_centre_ - point).cross(total.force);
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The wrench that a joint transmits, substep by substep, from the feedback of its joints in ODE.
+// The wrench that a joint transmits, substep by substep, from the feedback of its joints in ODE or from a solver.
 #pragma once
 
 #include <ode/ode.h>
@@ -34,6 +34,9 @@ class WrenchMeter {
   /// Call before and after each substep: ODE's forces refer to the positions at its start.
   void begin();
   void end(double step);
+  /// Call in between if another solver finds what the parent exerts on the child: N s and N m s about a point, on the
+  /// way from the positions at the start to the present ones.
+  void report(const Wrench& impulse, const Vector3& point);
 
   /// Of the child on the parent since clear(), in world axes, about the joint's origin: N s and N m s.
   const Wrench& impulse() const { return impulse_; }
@@ -58,6 +61,8 @@ class WrenchMeter {
     SubstepSignal torque;  // N m, about the sensor's origin
   };
 
+  Wrench from_feedback() const;
+  Wrench from_solver(double step);
   Quaternion axes_of(ForceTorqueDescription::Frame frame, const Quaternion& sensor) const;
 
   const Link* parent_;
@@ -66,7 +71,9 @@ class WrenchMeter {
   std::deque<Report> reports_;
   std::vector<Signal> signals_;
   Wrench impulse_;
-  // At the start of the substep:
+  std::optional<Wrench> reported_;  // N s and N m s, about the next
+  Vector3 reported_about_;
+  // At the start of the substep, or on the way:
   Pose child_pose_;
   Quaternion parent_axes_;
   Vector3 child_centre_;  // of mass, in the world

@@ -52,7 +52,7 @@ void ConstraintRows::add_way(const TreeBody& body, const Vector3& turn, const Ve
 
 int ConstraintRows::add(const TreeBody& first, const TreeBody& second, const Vector3& turn, const Vector3& push,
                         const Vector3& point) {
-  rows_.emplace_back();
+  rows_.push_back({0, 0, 0, first, second, turn, push, point});
   add_way(first, turn, push, point, 1);
   add_way(second, turn, push, point, -1);
   return count() - 1;
@@ -74,7 +74,9 @@ int ConstraintRows::add_dof(Tree& tree, int dof) {
 }
 
 void ConstraintRows::set(int row, double target, double softness, double start) {
-  rows_[at(row)] = {target, softness, start};
+  rows_[at(row)].target = target;
+  rows_[at(row)].softness = softness;
+  rows_[at(row)].start = start;
 }
 
 /// Adds the part of a tree to the problem.
@@ -117,16 +119,18 @@ void ConstraintRows::apply(const RowsOfTree& own) {
   own.tree->rates() += change_;
 }
 
-double ConstraintRows::impulse_on(const Tree& tree, int dof) const {
-  double sum = 0;
-  for (std::size_t i = 0; i < used_; ++i) {
-    const RowsOfTree& own = trees_[i];
-    if (own.tree != &tree) continue;
-    for (std::size_t r = 0; r < own.rows.size(); ++r) {
-      sum += own.given[r * at(tree.dofs()) + at(dof)] * problem_.x[own.rows[r]];
-    }
+void ConstraintRows::add_impulses(const Tree& tree, std::vector<TreeMomentum>& links) const {
+  for (int r = 0; r < count(); ++r) {
+    const Row& row = rows_[at(r)];
+    const auto add = [&](const TreeBody& body, double impulse) {
+      if (body.tree != &tree) return;
+      TreeMomentum& link = links[at(body.link)];
+      link.linear += row.push * impulse;
+      link.angular += (row.turn + (row.point - tree.origin()).cross(row.push)) * impulse;
+    };
+    add(row.first, problem_.x[r]);
+    add(row.second, -problem_.x[r]);
   }
-  return sum;
 }
 
 ConeResult ConstraintRows::solve() {

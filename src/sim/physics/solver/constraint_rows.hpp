@@ -35,14 +35,17 @@ class ConstraintRows {
   /// Finds the impulses and changes the rates of the trees, which are factored.
   ConeResult solve();
   double impulse(int row) const { return problem_.x[row]; }
-  /// The sum of the impulses of all rows on a degree of freedom, N s or N m s.
-  double impulse_on(const Tree& tree, int dof) const;
+  /// Adds the impulses of forces and torques, which act between links or on the world, to the momenta of a tree's
+  /// links, about the origin that it had when the rows were added.
+  void add_impulses(const Tree& tree, std::vector<TreeMomentum>& links) const;
 
  private:
   struct Row {
     double target = 0;
     double softness = 0;
     double start = 0;
+    TreeBody first, second;  // none of a degree of freedom
+    Vector3 turn, push, point;
   };
   /// The rows that act on one tree; those that also act on another one are in both.
   struct RowsOfTree {

@@ -58,6 +58,7 @@ class Tree {
   void set_inertia(int link, double mass, const Matrix3& inertia);
 
   int links() const { return static_cast<int>(links_.size()); }
+  int parent(int link) const { return links_[index(link)].link.parent; }
   int dofs() const { return static_cast<int>(columns_.size()); }
   int first_dof(int link) const { return links_[index(link)].first_dof; }
   int dof_count(int link) const { return links_[index(link)].dof_count; }
@@ -111,11 +112,10 @@ class Tree {
 
   /// The link of kFree that carries a link; -1: the world carries it.
   int free_root(int link) const { return links_[index(link)].free_root; }
-  /// Computes the momentum of what each link of kFree carries, by that link; the others have none. After
-  /// set_velocities().
-  void find_momenta(std::vector<TreeMomentum>& found) const;
+  /// Of a link, at the present place. After set_velocities().
+  TreeMomentum momentum(int link) const;
   /// Changes the velocities of links of kFree, and with them that of all that they carry as if it were rigid, until
-  /// they have these momenta. The rates keep their values.
+  /// these sums are their momenta. The rates keep their values.
   void set_momenta(const std::vector<TreeMomentum>& wanted);
 
  private:
@@ -160,7 +160,6 @@ class Tree {
   std::vector<double> matrix_;
   std::vector<double> inverse_diagonal_;
   Eigen::VectorXd rates_, middle_, bias_, change_;
-  std::vector<TreeMomentum> present_;
   Vector3 origin_;
 };
 

@@ -7,23 +7,17 @@
 
 namespace bubblesim {
 
-void Tree::find_momenta(std::vector<TreeMomentum>& found) const {
-  found.assign(links_.size(), {});
-  for (int i = 0; i < links(); ++i) {
-    if (free_root(i) < 0) continue;
-    const TreeLink& link = links_[index(i)].link;
-    const Body& body = bodies_[index(i)];
-    TreeMomentum& sum = found[index(free_root(i))];
-    const Vector3 linear = body.velocity * link.mass;
-    sum.linear += linear;
-    sum.angular += body.centre.cross(linear) + body.axes * (link.inertia * (body.axes.transpose() * body.spin));
-  }
+TreeMomentum Tree::momentum(int number) const {
+  const TreeLink& link = links_[index(number)].link;
+  const Body& body = bodies_[index(number)];
+  const Vector3 linear = body.velocity * link.mass;
+  return {linear, body.centre.cross(linear) + body.axes * (link.inertia * (body.axes.transpose() * body.spin))};
 }
 
 void Tree::set_momenta(const std::vector<TreeMomentum>& wanted) {
-  find_momenta(present_);
   for (int root = 0; root < links(); ++root) {
     if (free_root(root) != root) continue;
+    TreeMomentum missing = wanted[index(root)];
     double mass = 0;
     Vector3 first;
     Matrix3 second = Matrix3::Zero();
@@ -32,6 +26,9 @@ void Tree::set_momenta(const std::vector<TreeMomentum>& wanted) {
       const TreeLink& link = links_[index(i)].link;
       const Body& body = bodies_[index(i)];
       const Vector3& c = body.centre;
+      const TreeMomentum present = momentum(i);
+      missing.linear -= present.linear;
+      missing.angular -= present.angular;
       mass += link.mass;
       first += c * link.mass;
       second += body.axes * link.inertia * body.axes.transpose() +
@@ -39,13 +36,11 @@ void Tree::set_momenta(const std::vector<TreeMomentum>& wanted) {
     }
     const Vector3 centre = first / mass;
     second -= mass * (centre.squaredNorm() * Matrix3::Identity() - centre * centre.transpose());
-    const Vector3 linear = wanted[index(root)].linear - present_[index(root)].linear;
-    const Vector3 angular = wanted[index(root)].angular - present_[index(root)].angular - centre.cross(linear);
-    const Vector3 turn = second.ldlt().solve(angular);
+    const Vector3 turn = second.ldlt().solve(missing.angular - centre.cross(missing.linear));
     for (int i = root; i < links(); ++i) {
       if (free_root(i) != root) continue;
       Body& body = bodies_[index(i)];
-      body.velocity += linear / mass + turn.cross(body.centre - centre);
+      body.velocity += missing.linear / mass + turn.cross(body.centre - centre);
       body.spin += turn;
     }
   }
