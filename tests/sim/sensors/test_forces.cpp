@@ -39,15 +39,41 @@ TEST(ForceTorque, FastTurnIsMeasuredInItsAxesAtEachMoment) {
   constexpr double kTurn = 10;  // rad/s: half a radian in a simulation step
   for (const auto frame : {ForceTorqueDescription::Frame::kChild, ForceTorqueDescription::Frame::kParent,
                            ForceTorqueDescription::Frame::kSensor}) {
-    ForceTorqueDescription kind;
-    kind.frame = frame;
-    Simulation simulation(scene({turning_hand(kind)}, Vector3::Zero()));
+    for (const Solver solver : {Solver::kOde, Solver::kBubblesim}) {
+      ForceTorqueDescription kind;
+      kind.frame = frame;
+      SceneDescription described = scene({turning_hand(kind)}, Vector3::Zero());
+      described.solver = solver;
+      Simulation simulation(described);
+      const SceneTree& tree = simulation.world().tree();
+      simulation.world().joints().set_target_velocity(tree.find("/joint"), kTurn);
+      for (int i = 0; i < 7; ++i) simulation.step();
+      const auto reading = simulation.measure(tree.find("/Wrist"))->measurement.get<ForceTorqueReading>();
+      expect_near(reading.force, {kTurn * kTurn * 0.5, 0, 0}, 0.02 * 50);  // m w^2 r, outwards
+      expect_near(reading.torque, {}, 0.02 * 50 * 0.5);
+    }
+  }
+}
+
+TEST(ForceTorque, MeasuresTheWeightAndTheContactsBehindItsJoint) {
+  for (const Solver solver : {Solver::kOde, Solver::kBubblesim}) {
+    ModelDescription robot = turning_hand({});
+    robot.joints[0].axes[0] = axis(Vector3::UnitY());  // a free hinge: the floor bears all of the hand
+    robot.links[1].collisions.push_back(shape(Sphere{0.1}, 0));
+    robot.links[1].collisions.back().pose = at(0.5, 0, 0);
+    robot.pose = at(0, 0, 0.1);
+    SceneDescription described = scene({floor(), robot});
+    described.solver = solver;
+    Simulation simulation(described);
     const SceneTree& tree = simulation.world().tree();
-    simulation.world().joints().set_target_velocity(tree.find("/joint"), kTurn);
-    for (int i = 0; i < 7; ++i) simulation.step();
-    const auto reading = simulation.measure(tree.find("/Wrist"))->measurement.get<ForceTorqueReading>();
-    expect_near(reading.force, {kTurn * kTurn * 0.5, 0, 0}, 0.02 * 50);  // m w^2 r, outwards
-    expect_near(reading.torque, {}, 0.02 * 50 * 0.5);
+    for (int i = 0; i < 40; ++i) simulation.step();
+    const auto force = [&] {
+      return simulation.measure(tree.find("/Wrist"))->measurement.get<ForceTorqueReading>().force;
+    };
+    expect_near(force(), {}, 1e-3);
+    simulation.world().wrenches().apply(tree.find("/Robot/*", kNoObject, 0), {{0, 0, 0}, {0, -3, 0}});
+    simulation.step();  // the arm lifts 3 N m / 0.5 m from the floor: the wrist bears them
+    expect_near(force(), {0, 0, -6}, 1e-2);
   }
 }
 

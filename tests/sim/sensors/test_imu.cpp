@@ -74,10 +74,14 @@ TEST(Imu, OffTheCentreOfMassOfAHingedLink) {
   arm.centre_of_mass = {0.5, 0, 0};
   ModelDescription robot = with_imu(arm, Pose(0.5, 0, 0, 0, 0, 0));
   robot.joints.push_back(joint("continuous", {axis(Vector3::UnitZ(), MotorMode::kVelocity)}, {}, "world", "arm"));
-  Simulation simulation(scene({robot}, Vector3::Zero()));
-  simulation.world().joints().set_target_velocity(simulation.world().tree().find("/joint"), kTurn);
-  for (int i = 0; i < 7; ++i) simulation.step();
-  expect_near(measured(simulation).linear_acceleration, {-kTurn * kTurn * 0.5, 0, 0}, 0.02 * 50);
+  for (const Solver solver : {Solver::kOde, Solver::kBubblesim}) {
+    SceneDescription described = scene({robot}, Vector3::Zero());
+    described.solver = solver;
+    Simulation simulation(described);
+    simulation.world().joints().set_target_velocity(simulation.world().tree().find("/joint"), kTurn);
+    for (int i = 0; i < 7; ++i) simulation.step();
+    expect_near(measured(simulation).linear_acceleration, {-kTurn * kTurn * 0.5, 0, 0}, 0.02 * 50);
+  }
 }
 
 TEST(Imu, BandwidthIsThatOfAFirstOrderLowPass) {

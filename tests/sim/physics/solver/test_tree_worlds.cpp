@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "near.hpp"
 #include "scenes.hpp"
 
 namespace bubblesim::test::test_tree_worlds {
@@ -64,6 +65,40 @@ TEST(StopByTrees, HoldsARodAtItsLimit) {
   World world = by_trees({pendulum(-M_PI / 2, hinge)});
   world.advance(3, kStep);
   EXPECT_NEAR(std::abs(world.joints().position(world.tree().find("/joint"))), 0.3, 1e-4);
+}
+
+TEST(FloatingRobotByTrees, KeepsItsMomentumWhileItsMotorTurns) {
+  LinkDescription base = link("base");
+  LinkDescription arm = link("arm");
+  base.mass = 3;
+  base.inertia_diagonal = Vector3(0.2, 0.4, 0.3);
+  arm.inertia_diagonal = Vector3(0.05, 0.1, 0.12);
+  arm.pose = at(0.5, 0.1, 0.2);
+  ModelDescription robot = model("Robot", base, at(0, 0, 5));
+  robot.links.push_back(arm);
+  robot.joints.push_back(
+      joint("continuous", {axis(Vector3(0, 0.6, 0.8), MotorMode::kVelocity)}, {-0.4, 0, 0}, "base", "arm"));
+  SceneDescription described = scene({robot}, Vector3::Zero());
+  described.solver = Solver::kBubblesim;
+  World world(described, 0);
+  world.joints().set_target_velocity(world.tree().find("/joint"), 8);
+  world.advance(5, kStep);
+  Vector3 linear;
+  Vector3 angular;
+  double moved = 0;
+  for (const LinkDescription& part : {base, arm}) {
+    const ObjectId body = world.tree().find("/Robot/" + part.name);
+    const Pose pose = world.pose(body);
+    const Twist velocity = world.velocity(body);
+    const Vector3 spin = pose.orientation.conjugate() * velocity.angular;
+    linear += velocity.linear * part.mass;
+    angular += pose.position.cross(velocity.linear) * part.mass;
+    angular += pose.orientation * Vector3(part.inertia_diagonal.cwiseProduct(spin));
+    moved += velocity.angular.norm();
+  }
+  EXPECT_GT(moved, 1);
+  expect_near(linear, {}, 1e-11);  // as at the start
+  expect_near(angular, {}, 1e-11);
 }
 
 }  // namespace
