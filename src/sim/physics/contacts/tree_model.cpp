@@ -28,6 +28,17 @@ bool closes_loops(const std::string& type) {
   return motion != TreeMotion::kScrews && motion != TreeMotion::kTwoAxes;
 }
 
+bool is_gearbox(const PlacedModel& model, std::size_t joint) {
+  return model.description.joints[joint].type == "gearbox";
+}
+
+bool is_child_of_joint(const PlacedModel& model, ObjectId link) {
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    if (model.joints[i].child == link && !is_gearbox(model, i)) return true;
+  }
+  return false;
+}
+
 Pose in_body(const Link& link, const Pose& in_link) {
   return {in_link.position - link.centre_of_mass, in_link.orientation};
 }
@@ -48,10 +59,23 @@ TreeBody TreeModel::body_of(ObjectId link) {
   return {&tree_, numbers_[place_of(link)]};
 }
 
+/// Of a link; of the world for "world".
+TreeBody TreeModel::body_named(const std::string& name) {
+  for (std::size_t i = 0; i < model_.links.size(); ++i) {
+    if (model_.description.links[i].name == name) return {&tree_, numbers_[i]};
+  }
+  return {};
+}
+
 TreeBody TreeModel::body(const Link& link) { return body_of(link.object); }
 
 TreeModel::TreeModel(const PlacedModel& model) : model_(model), numbers_(model.links.size(), -1) {
   std::vector<bool> used(model.joints.size(), false);
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    if (!is_gearbox(model, i)) continue;
+    used[i] = true;
+    gearboxes_.push_back(i);
+  }
   const auto is_placed = [&](ObjectId link) { return link == kNoObject || numbers_[place_of(link)] >= 0; };
   const auto grow = [&] {
     bool any = false;
@@ -70,8 +94,7 @@ TreeModel::TreeModel(const PlacedModel& model) : model_(model), numbers_(model.l
     std::size_t root = model.links.size();
     for (std::size_t i = 0; i < model.links.size(); ++i) {
       if (numbers_[i] >= 0) continue;
-      const bool is_child = std::any_of(model.joints.begin(), model.joints.end(),
-                                        [&](const PlacedJoint& joint) { return joint.child == model.links[i].object; });
+      const bool is_child = is_child_of_joint(model, model.links[i].object);
       if (!is_child || root == model.links.size()) root = i;
       if (!is_child) break;
     }
@@ -111,10 +134,10 @@ void TreeModel::add_link(std::size_t number, int parent) {
 bool TreeModel::knows_joints_of(const PlacedModel& model) {
   std::vector<ObjectId> children;
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    if (is_gearbox(model, i)) continue;
     const ObjectId child = model.joints[i].child;
-    const std::string& type = model.description.joints[i].type;
     const bool again = std::find(children.begin(), children.end(), child) != children.end();
-    if (type == "gearbox" || (again && !closes_loops(type))) return false;
+    if (again && !closes_loops(model.description.joints[i].type)) return false;
     children.push_back(child);
   }
   return true;
@@ -175,6 +198,7 @@ void TreeModel::begin(const Vector3& gravity, double step) {
 void TreeModel::add_rows(ConstraintRows& rows, double step) {
   motors_.clear();
   for (const std::size_t joint : loops_) close_loop(joint, rows, step);
+  for (const std::size_t gearbox : gearboxes_) couple(gearbox, rows, step);
   for (const Axis& axis : axes_) add_axis_rows(axis, rows, step);
 }
 
@@ -273,6 +297,19 @@ void TreeModel::close_loop(std::size_t number, ConstraintRows& rows, double step
     const Vector3& error = motion == TreeMotion::kTurns ? tilt : turned;
     hold(rows.add_torque(first, second, directions[i]), directions[i].dot(error));
   }
+}
+
+void TreeModel::couple(std::size_t number, ConstraintRows& rows, double step) {
+  const PlacedJoint& gearbox = model_.joints[number];
+  const ShaftCoupling shafts = *gearbox.joint->coupling();
+  const TreeBody reference = body_named(model_.description.joints[number].gearbox_reference);
+  const int row = rows.add_torque(body_of(gearbox.child), reference, shafts.child_axis);
+  rows.add_torque_to_last(body_of(gearbox.parent), reference, shafts.parent_axis * shafts.ratio);
+  const double error = gearbox.joint->position(1) + shafts.ratio * gearbox.joint->position(0);
+  rows.set(row, -kErrorReduction * error / step, kConstraintSoftness / step, 0);
+  ConeBlock block;
+  block.row = row;
+  rows.bound(block);
 }
 
 /// Moves the tree. Only what acts on it from outside changes the momentum of a robot: the efforts of its joints do not.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "bubblesim/math.hpp"
@@ -52,9 +53,11 @@ class TreeModel {
   int add_axis_row(const Axis& axis, ConstraintRows& rows);
   void add_stops(const Axis& axis, ConstraintRows& rows, double step);
   void close_loop(std::size_t joint, ConstraintRows& rows, double step);
+  void couple(std::size_t gearbox, ConstraintRows& rows, double step);
   void move(const ConstraintRows& rows, double step);
   void report_reactions();
   TreeBody body_of(ObjectId link);
+  TreeBody body_named(const std::string& name);
   const Link& link_of(ObjectId link) const;
   std::size_t place_of(ObjectId link) const;
 
@@ -64,6 +67,7 @@ class TreeModel {
   std::vector<std::size_t> places_;  // the reverse
   std::vector<Axis> axes_;
   std::vector<TreeJoint> tree_joints_;
+  std::vector<std::size_t> gearboxes_;
   std::vector<std::size_t> loops_;  // the other joints
   std::vector<MotorRow> motors_;
   std::vector<Pose> poses_;

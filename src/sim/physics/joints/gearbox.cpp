@@ -108,6 +108,11 @@ class Gearbox final : public Joint {
     return (Frame(shafts_[axis].body).angular - frame.angular).dot(frame.pose.orientation * shafts_[axis].direction);
   }
 
+  std::optional<ShaftCoupling> coupling() const override {
+    const Quaternion axes = Frame(reference_).pose.orientation;
+    return ShaftCoupling{axes * shafts_[0].direction, axes * shafts_[1].direction, ratio_};
+  }
+
  private:
   struct Pair {
     dBodyID first;

@@ -31,6 +31,13 @@ struct AxisForces {
   std::optional<MotorForce> motor, friction, damper;
 };
 
+/// Shafts of a gearbox: the child turns by -ratio times the angle of the parent, both in the reference body.
+struct ShaftCoupling {
+  Vector3 parent_axis;  ///< unit vectors in the world
+  Vector3 child_axis;
+  double ratio = 1;
+};
+
 class Joint {
  public:
   explicit Joint(std::vector<AxisDescription> axes);
@@ -69,6 +76,9 @@ class Joint {
 
   /// What drive() has set for an axis.
   AxisForces forces(int axis) const;
+
+  /// Of a gearbox; other joints have none.
+  virtual std::optional<ShaftCoupling> coupling() const { return std::nullopt; }
 
   /// Saves or restores commands, and what the joint remembers of the last substep.
   void transfer(StateArchive& archive);

@@ -15,6 +15,7 @@ std::size_t at(int number) { return static_cast<std::size_t>(number); }
 
 void ConstraintRows::clear() {
   rows_.clear();
+  actions_.clear();
   used_ = 0;
   problem_.blocks.clear();
 }
@@ -50,21 +51,28 @@ void ConstraintRows::add_way(const TreeBody& body, const Vector3& turn, const Ve
   }
 }
 
-int ConstraintRows::add(const TreeBody& first, const TreeBody& second, const Vector3& turn, const Vector3& push,
-                        const Vector3& point) {
-  rows_.push_back({0, 0, 0, first, second, turn, push, point});
+void ConstraintRows::act(const TreeBody& first, const TreeBody& second, const Vector3& turn, const Vector3& push,
+                         const Vector3& point) {
+  actions_.push_back({count() - 1, first, second, turn, push, point});
   add_way(first, turn, push, point, 1);
   add_way(second, turn, push, point, -1);
-  return count() - 1;
 }
 
 int ConstraintRows::add_force(const TreeBody& first, const TreeBody& second, const Vector3& point,
                               const Vector3& direction) {
-  return add(first, second, Vector3(), direction, point);
+  rows_.emplace_back();
+  act(first, second, Vector3(), direction, point);
+  return count() - 1;
 }
 
 int ConstraintRows::add_torque(const TreeBody& first, const TreeBody& second, const Vector3& axis) {
-  return add(first, second, axis, Vector3(), Vector3());
+  rows_.emplace_back();
+  act(first, second, axis, Vector3(), Vector3());
+  return count() - 1;
+}
+
+void ConstraintRows::add_torque_to_last(const TreeBody& first, const TreeBody& second, const Vector3& axis) {
+  act(first, second, axis, Vector3(), Vector3());
 }
 
 int ConstraintRows::add_dof(Tree& tree, int dof) {
@@ -120,16 +128,15 @@ void ConstraintRows::apply(const RowsOfTree& own) {
 }
 
 void ConstraintRows::add_impulses(const Tree& tree, std::vector<TreeMomentum>& links) const {
-  for (int r = 0; r < count(); ++r) {
-    const Row& row = rows_[at(r)];
+  for (const Action& action : actions_) {
     const auto add = [&](const TreeBody& body, double impulse) {
       if (body.tree != &tree) return;
       TreeMomentum& link = links[at(body.link)];
-      link.linear += row.push * impulse;
-      link.angular += (row.turn + (row.point - tree.origin()).cross(row.push)) * impulse;
+      link.linear += action.push * impulse;
+      link.angular += (action.turn + (action.point - tree.origin()).cross(action.push)) * impulse;
     };
-    add(row.first, problem_.x[r]);
-    add(row.second, -problem_.x[r]);
+    add(action.first, problem_.x[action.row]);
+    add(action.second, -problem_.x[action.row]);
   }
 }
 

@@ -27,6 +27,8 @@ class ConstraintRows {
   /// A force along `direction` at a point, on the first body, and the opposite on the second. Returns its number.
   int add_force(const TreeBody& first, const TreeBody& second, const Vector3& point, const Vector3& direction);
   int add_torque(const TreeBody& first, const TreeBody& second, const Vector3& axis);
+  /// Adds a torque, likewise, to the row that was added last.
+  void add_torque_to_last(const TreeBody& first, const TreeBody& second, const Vector3& axis);
   int add_dof(Tree& tree, int dof);
   /// What the velocity of a row is to be, m/s or rad/s, and how much of it an impulse lets through, 1/kg; start: N s.
   void set(int row, double target, double softness, double start);
@@ -44,7 +46,11 @@ class ConstraintRows {
     double target = 0;
     double softness = 0;
     double start = 0;
-    TreeBody first, second;  // none of a degree of freedom
+  };
+  /// What a row does to two links per impulse.
+  struct Action {
+    int row;
+    TreeBody first, second;
     Vector3 turn, push, point;
   };
   /// The rows that act on one tree; those that also act on another one are in both.
@@ -57,13 +63,15 @@ class ConstraintRows {
 
   void gather(RowsOfTree& own);
   void apply(const RowsOfTree& own);
-  int add(const TreeBody& first, const TreeBody& second, const Vector3& turn, const Vector3& push,
-          const Vector3& point);
+  /// Adds a force and a torque to the last row.
+  void act(const TreeBody& first, const TreeBody& second, const Vector3& turn, const Vector3& push,
+           const Vector3& point);
   /// The values of the last row in a tree, which are 0 at first.
   double* values(Tree& tree);
   void add_way(const TreeBody& body, const Vector3& turn, const Vector3& push, const Vector3& point, double sign);
 
   std::vector<Row> rows_;
+  std::vector<Action> actions_;    // of forces and torques
   std::vector<RowsOfTree> trees_;  // the first `used_` of them; the others keep their memory
   std::size_t used_ = 0;
   ConeProblem problem_;

@@ -119,9 +119,14 @@ TEST(Screw, LimitsCountWholeTurns) {
   EXPECT_NEAR(pair.world.joints().position(pair.joint), 9, 0.02);
 }
 
+struct Gears {
+  const char* reference;
+  Vector3 first, second, apart;
+};
+
 /// Two wheels on hinges in `base`, or in the world, coupled by a gearbox; the first has a motor.
-SceneDescription geared(double ratio, const Vector3& first, const Vector3& second, const Vector3& apart,
-                        const std::string& reference) {
+SceneDescription geared(double ratio, const Gears& gears, Solver solver) {
+  const auto& [reference, first, second, apart] = gears;
   ModelDescription box = model("Box", link("base"));
   box.links.push_back(link("in"));
   box.links.push_back(link("out", apart));
@@ -131,26 +136,26 @@ SceneDescription geared(double ratio, const Vector3& first, const Vector3& secon
   for (int i = 0; i < 3; ++i) box.joints[static_cast<std::size_t>(i)].name = "joint" + std::to_string(i);
   box.joints[2].gearbox_ratio = ratio;
   box.joints[2].gearbox_reference = reference;
-  return scene({box}, Vector3::Zero());
+  SceneDescription described = scene({box}, Vector3::Zero());
+  described.solver = solver;
+  return described;
 }
 
-struct Gears {
-  const char* reference;
-  Vector3 first, second, apart;
-};
-class Gearbox : public ::testing::TestWithParam<Gears> {};
+class Gearbox : public ::testing::TestWithParam<std::tuple<Gears, Solver>> {};
 INSTANTIATE_TEST_SUITE_P(
     Places, Gearbox,
-    ::testing::Values(Gears{"world", Vector3::UnitZ(), Vector3::UnitZ(), {0.4, 0, 0}},
-                      Gears{"base", Vector3::UnitY(), Vector3::UnitY(), {0.3, 0, 0.1}},
-                      Gears{"base", Vector3::UnitZ(), Vector3::UnitX(), {0.2, 0, 0}},
-                      Gears{"world", Vector3::UnitX(), Vector3::UnitX(), {0.5, 0, 0}},  // on one line
-                      Gears{"base", Vector3::UnitZ(), Vector3::UnitZ(), {0, 0, 0.1}}));
+    ::testing::Combine(::testing::Values(Gears{"world", Vector3::UnitZ(), Vector3::UnitZ(), {0.4, 0, 0}},
+                                         Gears{"base", Vector3::UnitY(), Vector3::UnitY(), {0.3, 0, 0.1}},
+                                         Gears{"base", Vector3::UnitZ(), Vector3::UnitX(), {0.2, 0, 0}},
+                                         Gears{
+                                             "world", Vector3::UnitX(), Vector3::UnitX(), {0.5, 0, 0}},  // on one line
+                                         Gears{"base", Vector3::UnitZ(), Vector3::UnitZ(), {0, 0, 0.1}}),
+                       ::testing::Values(Solver::kOde, Solver::kBubblesim)));
 
 TEST_P(Gearbox, ChildTurnsMinusRatioTimesTheParent) {
-  const Gears& gears = GetParam();
+  const auto& [gears, solver] = GetParam();
   for (const double ratio : {2.0, -0.5, 1.0, -1.0}) {
-    World world(geared(ratio, gears.first, gears.second, gears.apart, gears.reference), 0);
+    World world(geared(ratio, gears, solver), 0);
     const ObjectId in = world.tree().find("/joint0");
     const ObjectId out = world.tree().find("/joint1");
     world.joints().set_target_velocity(in, 3);
@@ -164,7 +169,8 @@ TEST_P(Gearbox, ChildTurnsMinusRatioTimesTheParent) {
 }
 
 TEST_P(Gearbox, HasNoMotor) {
-  World world(geared(1, GetParam().first, GetParam().second, GetParam().apart, GetParam().reference), 0);
+  const auto& [gears, solver] = GetParam();
+  World world(geared(1, gears, solver), 0);
   const ObjectId gearbox = world.tree().find("/joint2");
   EXPECT_THROW(world.joints().set_motor_mode(gearbox, MotorMode::kEffort), WrongObject);
   EXPECT_THROW(world.joints().set_motor_mode(gearbox, MotorMode::kVelocity, 1), WrongObject);
@@ -174,9 +180,9 @@ TEST_P(Gearbox, HasNoMotor) {
 }
 
 TEST_P(Gearbox, CarriesTorqueByItsRatio) {
-  const Gears& gears = GetParam();
+  const auto& [gears, solver] = GetParam();
   constexpr double kRatio = 2;
-  SceneDescription described = geared(kRatio, gears.first, gears.second, gears.apart, "world");
+  SceneDescription described = geared(kRatio, {"world", gears.first, gears.second, gears.apart}, solver);
   described.models[0].joints[0].axes[0].max_force = 1;
   World world(described, 0);
   const ObjectId in = world.tree().find("/joint0");
@@ -187,8 +193,8 @@ TEST_P(Gearbox, CarriesTorqueByItsRatio) {
 }
 
 TEST_P(Gearbox, GoesWithAModelThatIsPutElsewhere) {
-  const Gears& gears = GetParam();
-  World world(geared(2, gears.first, gears.second, gears.apart, "base"), 0);
+  const auto& [gears, solver] = GetParam();
+  World world(geared(2, {"base", gears.first, gears.second, gears.apart}, solver), 0);
   const ObjectId in = world.tree().find("/joint0");
   world.joints().set_target_velocity(in, 1);
   world.advance(1, kStep);
