@@ -6,8 +6,9 @@
 namespace bubblesim {
 namespace {
 
-constexpr Eigen::Index kFew = 32;   // rows, for which Eigen's blocks for large products do not pay
-constexpr double kSingular = 1e-9;  // of a diagonal element, added where rows repeat each other
+constexpr Eigen::Index kFew = 32;     // rows, for which Eigen's blocks for large products do not pay
+constexpr double kImmovable = 1e-14;  // of the largest diagonal element
+constexpr double kSingular = 1e-9;    // of a diagonal element, added where rows repeat each other
 
 std::size_t at(int number) { return static_cast<std::size_t>(number); }
 
@@ -140,6 +141,14 @@ void ConstraintRows::add_impulses(const Tree& tree, std::vector<TreeMomentum>& l
   }
 }
 
+/// Leaves a row out along which nothing can move, such as that of a contact of a fixed link.
+void ConstraintRows::rest(int row) {
+  problem_.a.row(row).setZero();
+  problem_.a.col(row).setZero();
+  problem_.a(row, row) = 1;
+  problem_.b[row] = problem_.x[row] = 0;
+}
+
 ConeResult ConstraintRows::solve() {
   const int n = count();
   if (n == 0) return {};
@@ -151,7 +160,9 @@ ConeResult ConstraintRows::solve() {
     problem_.x[r] = rows_[at(r)].start;
   }
   for (std::size_t i = 0; i < used_; ++i) gather(trees_[i]);
+  const double largest = problem_.a.diagonal().maxCoeff();
   for (int c = 0; c < n; ++c) {
+    if (problem_.a(c, c) <= kImmovable * largest) rest(c);
     problem_.a(c, c) += std::max(rows_[at(c)].softness, kSingular * problem_.a(c, c));
     for (int r = c + 1; r < n; ++r) problem_.a(c, r) = problem_.a(r, c);
   }

@@ -67,6 +67,25 @@ TEST(StopByTrees, HoldsARodAtItsLimit) {
   EXPECT_NEAR(std::abs(world.joints().position(world.tree().find("/joint"))), 0.3, 1e-4);
 }
 
+TEST(StopByTrees, HoldsARodWhoseFixedPostTouchesTheFloor) {
+  AxisDescription hinge = axis(Vector3::UnitY());
+  hinge.lower = -0.3;
+  hinge.upper = 0.3;
+  ModelDescription robot = pendulum(-M_PI / 2, hinge);
+  LinkDescription post = link_with(Box{{0.1, 0.1, 1}});
+  post.name = "post";
+  post.pose = at(0, 1, 0.5 - 1e-4);
+  robot.pose = at(0, 0, 3);
+  robot.links.insert(robot.links.begin(), post);
+  robot.links.front().pose.position.z() -= 3;
+  robot.joints[0].parent = "post";
+  robot.joints.push_back(joint("fixed", {}, {}, "world", "post"));
+  robot.joints.back().name = "mount";
+  World world = by_trees({floor(), robot});
+  world.advance(3, kStep);
+  EXPECT_NEAR(std::abs(world.joints().position(world.tree().find("/joint"))), 0.3, 1e-4);
+}
+
 TEST(FloatingRobotByTrees, KeepsItsMomentumWhileItsMotorTurns) {
   LinkDescription base = link("base");
   LinkDescription arm = link("arm");
