@@ -29,7 +29,7 @@ void TreeSolver::choose(Substep& substep) {
   const int count = static_cast<int>(substep.moving.size());
   for (int i = 0; i < count; ++i) {
     const int island = islands.of(i);
-    islands.set_by_trees(island, islands.is_jointed(island));
+    islands.set_by_trees(island, islands.is_jointed(island) && !islands.is_beyond_limit(island));
   }
   for (int i = 0; i < count; ++i) {
     PlacedModel& model = *substep.moving[static_cast<std::size_t>(i)];
@@ -148,6 +148,7 @@ void TreeSolver::add_point(const TreeBody& a, const TreeBody& b, const FoundPair
   const auto add = [&](const Vector3& direction, double wanted, double softness) {
     const int row = rows_.add_force(a, b, position, direction);
     rows_.set(row, wanted, softness / step, force.dot(direction) * step);
+    rows_.set_of_contact(row);
     return row;
   };
   point.normal = add(n, target, cfm);
@@ -176,6 +177,7 @@ void TreeSolver::add_point(const TreeBody& a, const TreeBody& b, const FoundPair
   for (const Vector3& axis : {point.tangent1, point.tangent2, n}) {
     const int row = rows_.add_torque(a, b, axis);
     rows_.set(row, 0, 0, start.torque.dot(axis) * step);
+    rows_.set_of_contact(row);
     if (point.spin < 0) point.spin = row;
   }
   bound(point.spin, 2, surface.rho);

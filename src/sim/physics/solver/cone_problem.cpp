@@ -8,10 +8,11 @@ namespace bubblesim {
 namespace {
 
 constexpr double kSmall = 1e-10;  // m/s, of a residual
-constexpr int kNewtonSteps = 30;
+constexpr double kGood = 1e-6;    // m/s, where bounds and contacts that repeat each other keep Newton from less
+constexpr int kNewtonSteps = 12;
 constexpr int kHalvings = 8;
 constexpr int kSweepsAfterStall = 10;
-constexpr int kLastSweeps = 300;
+constexpr int kLastSweeps = 100;
 
 double bound_of(const ConeBlock& block, double normal) { return block.mu * std::max(normal, 0.0); }
 
@@ -158,7 +159,8 @@ ConeResult ConeSolver::solve(ConeProblem& problem) {
     merit = next;
   }
   // Sweeps converge slowly, but where they end there is a solution.
-  for (int i = 0; i < kLastSweeps && merit > enough; ++i) {
+  const double good = kGood * kGood * static_cast<double>(rows);
+  for (int i = 0; i < kLastSweeps && merit > good; ++i) {
     sweep(problem);
     ++result.sweeps;
     if (i % 10 == 9) merit = evaluate(problem, problem.x);

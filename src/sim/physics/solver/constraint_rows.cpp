@@ -8,7 +8,9 @@ namespace {
 
 constexpr Eigen::Index kFew = 32;     // rows, for which Eigen's blocks for large products do not pay
 constexpr double kImmovable = 1e-14;  // of the largest diagonal element
-constexpr double kSingular = 1e-9;    // of a diagonal element, added where rows repeat each other
+// Parts of a diagonal element that are added to it where rows repeat each other:
+constexpr double kOfAnyRow = 1e-9;
+constexpr double kOfContacts = 1e-6;  // the contacts of a box hold it in twice as many ways as it moves
 
 std::size_t at(int number) { return static_cast<std::size_t>(number); }
 
@@ -61,13 +63,13 @@ void ConstraintRows::act(const TreeBody& first, const TreeBody& second, const Ve
 
 int ConstraintRows::add_force(const TreeBody& first, const TreeBody& second, const Vector3& point,
                               const Vector3& direction) {
-  rows_.emplace_back();
+  rows_.emplace_back().singular = kOfAnyRow;
   act(first, second, Vector3(), direction, point);
   return count() - 1;
 }
 
 int ConstraintRows::add_torque(const TreeBody& first, const TreeBody& second, const Vector3& axis) {
-  rows_.emplace_back();
+  rows_.emplace_back().singular = kOfAnyRow;
   act(first, second, axis, Vector3(), Vector3());
   return count() - 1;
 }
@@ -77,10 +79,12 @@ void ConstraintRows::add_torque_to_last(const TreeBody& first, const TreeBody& s
 }
 
 int ConstraintRows::add_dof(Tree& tree, int dof) {
-  rows_.emplace_back();
+  rows_.emplace_back().singular = kOfAnyRow;
   values(tree)[dof] = 1;
   return count() - 1;
 }
+
+void ConstraintRows::set_of_contact(int row) { rows_[at(row)].singular = kOfContacts; }
 
 void ConstraintRows::set(int row, double target, double softness, double start) {
   rows_[at(row)].target = target;
@@ -163,7 +167,7 @@ ConeResult ConstraintRows::solve() {
   const double largest = problem_.a.diagonal().maxCoeff();
   for (int c = 0; c < n; ++c) {
     if (problem_.a(c, c) <= kImmovable * largest) rest(c);
-    problem_.a(c, c) += std::max(rows_[at(c)].softness, kSingular * problem_.a(c, c));
+    problem_.a(c, c) += std::max(rows_[at(c)].softness, rows_[at(c)].singular * problem_.a(c, c));
     for (int r = c + 1; r < n; ++r) problem_.a(c, r) = problem_.a(r, c);
   }
   const ConeResult result = solver_.solve(problem_);

@@ -32,6 +32,8 @@ class ConstraintRows {
   int add_dof(Tree& tree, int dof);
   /// What the velocity of a row is to be, m/s or rad/s, and how much of it an impulse lets through, 1/kg; start: N s.
   void set(int row, double target, double softness, double start);
+  /// Marks a row of a contact: other rows may hold the same bodies.
+  void set_of_contact(int row);
   void bound(const ConeBlock& block) { problem_.blocks.push_back(block); }
 
   /// Finds the impulses and changes the rates of the trees, which are factored.
@@ -46,6 +48,7 @@ class ConstraintRows {
     double target = 0;
     double softness = 0;
     double start = 0;
+    double singular = 0;  // least part of the diagonal element that is added to it
   };
   /// What a row does to two links per impulse.
   struct Action {

@@ -21,11 +21,12 @@ Tree body(double mass) {
   return tree;
 }
 
-void add_contact(ConstraintRows& rows, const TreeBody& on, const Vector3& at, double mu) {
+void add_contact(ConstraintRows& rows, const TreeBody& on, const Vector3& at, double mu, bool is_one_of_many = false) {
   int normal = -1;
   for (const Vector3& direction : {Vector3(0, 0, 1), Vector3(1, 0, 0), Vector3(0, 1, 0)}) {
     const int row = rows.add_force(on, {}, at, direction);
     rows.set(row, 0, 0, 0);
+    if (is_one_of_many) rows.set_of_contact(row);
     if (normal < 0) normal = row;
   }
   ConeBlock block;
@@ -84,6 +85,29 @@ TEST(ThreeWheels, ShareALateralLoadThatIsNotDetermined) {
   }
   EXPECT_NEAR(normal / kStep, 12 * kGravity, 1e-4);
   EXPECT_NEAR(lateral / kStep, -50, 1e-4);
+}
+
+TEST(Boxes, OnFourCornersSlideAndHold) {
+  // Twelve rows for six coordinates: many impulses have the same effect.
+  std::mt19937 random(3);
+  std::normal_distribution<double> any;
+  constexpr double kMu = 0.4;
+  for (int trial = 0; trial < 100; ++trial) {
+    Tree tree = body(2);
+    tree.place();
+    tree.factor(Eigen::VectorXd::Zero(6));
+    tree.push(kStep, {{{30 * any(random), 30 * any(random), -2 * kGravity}, {0.1 * any(random), 0, any(random)}}},
+              Eigen::VectorXd::Zero(6));
+    ConstraintRows rows;
+    for (const double x : {-0.3, 0.3}) {
+      for (const double y : {-0.2, 0.2}) add_contact(rows, {&tree, 0}, {x, y, -0.1}, kMu, true);
+    }
+    EXPECT_LT(rows.solve().residual, 1e-5) << trial;
+    for (int i = 0; i < 12; i += 3) {
+      EXPECT_GE(rows.impulse(i), -1e-6);
+      EXPECT_LE(std::hypot(rows.impulse(i + 1), rows.impulse(i + 2)), kMu * rows.impulse(i) + 1e-5) << trial;
+    }
+  }
 }
 
 TEST(ConeProblem, FindsASolutionOfRandomProblems) {
