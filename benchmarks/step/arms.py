@@ -67,7 +67,8 @@ class MuJoCo:
         """Build the model."""
         inside = ""
         for i in reversed(range(links)):
-            inside = f"""<body pos="{LENGTH if i else 0} 0 {0 if i else 20}"><joint axis="{AXES[i % 2]}" damping="{DAMPING}"/>
+            inside = f"""<body pos="{LENGTH if i else 0} 0 {0 if i else 20}">
+            <joint axis="{AXES[i % 2]}" damping="{DAMPING}"/>
             <inertial pos="{LENGTH / 2} 0 0" mass="{MASS}" diaginertia="{ALONG} {ACROSS} {ACROSS}"/>{inside}</body>"""
         self.model = mujoco.MjModel.from_xml_string(
             f"""<mujoco><option timestep="{STEP}" integrator="implicitfast"/><worldbody>{inside}</worldbody></mujoco>"""
@@ -80,6 +81,8 @@ class MuJoCo:
 
     def position(self) -> Any:
         """Return the position of the last link."""
+        mujoco.mj_kinematics(self.model, self.data)  # after a step it is that of the place before
+        mujoco.mj_comPos(self.model, self.data)
         return self.data.xipos[-1]
 
 
@@ -89,13 +92,14 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=21)
     rounds = parser.parse_args().rounds
     for links in (8, 16, 32, 64):
-        candidates = {"bubblesim": Ours(links, "bubblesim"), "MuJoCo": MuJoCo(links), "ODE": Ours(links, "ode")}
+        candidates = {"ODE": Ours(links, "ode"), "trees": Ours(links, "bubblesim"), "MuJoCo": MuJoCo(links)}
         for candidate in candidates.values():
             candidate.run(20)  # 0.1 s
         places = [np.array(candidate.position()) for candidate in candidates.values()]
         print(f"{links:3} links  ends are {np.ptp(places, axis=0).max() * 1000:.1f} mm apart after 0.1 s")
-        for name, took in medians({name: c.run for name, c in candidates.items()}, rounds, 100).items():
-            print(f"{links:3} links  {name:10} {took:9.2f} us a substep")
+        times = medians({name: candidate.run for name, candidate in candidates.items()}, rounds, 100)
+        for name, took in times.items():
+            print(f"{links:3} links  {name:10} {took:9.2f} us a substep, {took / times['trees']:6.2f} x trees")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Compare physics substeps of one tricycle, one among 200 boxes, and many tricycles with MuJoCo and PyBullet.
 
+Both solvers of bubblesim are candidates: ODE, and trees in generalised coordinates.
+
     python benchmarks/step/peers.py [--rounds N]
 
 Needs the workspace and `pip install -r benchmarks/requirements.txt`. The candidates run alternately in every round, so
@@ -43,7 +45,7 @@ def boxes(count: int) -> list[tuple[float, float, float]]:
     return found
 
 
-def scene_of(box_count: int, robots: int = 1, more: str = "") -> str:
+def scene_of(box_count: int, robots: int = 1, more: str = "", solver: str = "ode") -> str:
     """Return a scene of boxes and tricycles side by side, in SDFormat."""
     models = "".join(
         f"""<model name="Box{i}"><static>true</static><pose>{x} {y} 0.2 0 0 {heading}</pose><link name="l">
@@ -56,17 +58,18 @@ def scene_of(box_count: int, robots: int = 1, more: str = "") -> str:
         for i in range(robots)
     )
     return f"""<sdf version="1.9" xmlns:bubblesim="https://bubblesim"><world name="w">
-        <physics name="p" type="ode"><max_step_size>{STEP}</max_step_size></physics>
+        <physics name="p" type="ode"><max_step_size>{STEP}</max_step_size>
+        <bubblesim:solver>{solver}</bubblesim:solver></physics>
         <include><uri>model://floor</uri></include>{models}{more}</world></sdf>"""
 
 
 class Ours:
     """Tricycles side by side in bubblesim."""
 
-    def __init__(self, box_count: int, robots: int = 1) -> None:
+    def __init__(self, box_count: int, robots: int = 1, solver: str = "ode") -> None:
         """Load the scene and set the commands for a circle."""
         with tempfile.NamedTemporaryFile("w", suffix=".sdf") as file:
-            file.write(scene_of(box_count, robots))
+            file.write(scene_of(box_count, robots, solver=solver))
             file.flush()
             self.simulation = bubblesim.Simulation(file.name)
         for i in range(robots):
@@ -203,17 +206,23 @@ def main() -> None:
     rounds = parser.parse_args().rounds
     print(f"bubblesim {Path(bubblesim.__file__).parent}, MuJoCo {mujoco.__version__}, PyBullet 3.2.7")
     for count in (0, 200):
-        candidates = {"bubblesim": Ours(count), "MuJoCo": MuJoCo(count), "PyBullet": PyBullet(count)}
+        candidates = {
+            "ODE": Ours(count),
+            "trees": Ours(count, solver="bubblesim"),
+            "MuJoCo": MuJoCo(count),
+            "PyBullet": PyBullet(count),
+        }
         for name, candidate in candidates.items():
             before = np.array(candidate.position())
             candidate.run(200)
             print(f"  {name} moved {np.linalg.norm(np.array(candidate.position()) - before):.2f} m in a second")
         times = medians({name: candidate.run for name, candidate in candidates.items()}, rounds)
         for name, took in times.items():
-            print(f"{count:4} boxes  {name:10} {took:8.2f} us a substep, {took / times['bubblesim']:6.2f} x bubblesim")
-    crowds = {str(robots): Ours(0, robots).run for robots in (1, 10, 100)}
-    for robots, took in medians(crowds, max(rounds // 4, 3), 100).items():
-        print(f"{robots:>4} tricycles  {took:10.2f} us a substep, {took / int(robots):6.2f} per tricycle")
+            print(f"{count:4} boxes  {name:10} {took:8.2f} us a substep, {took / times['ODE']:6.2f} x ODE")
+    for solver in ("ode", "bubblesim"):
+        crowds = {str(robots): Ours(0, robots, solver).run for robots in (1, 10, 100)}
+        for robots, took in medians(crowds, max(rounds // 4, 3), 100).items():
+            print(f"{robots:>4} tricycles, {solver:9} {took:10.2f} us a substep, {took / int(robots):6.2f} each")
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from experiments.experiment import Experiment, run
-from experiments.ours import Ours
+from experiments.ours import Ours, Trees
 from experiments.registry import EXPERIMENTS
 from experiments.table import outcome_text
 from ros_support import REPOSITORY
@@ -17,11 +17,12 @@ from ros_support import REPOSITORY
 PROGRAM = REPOSITORY / "scripts" / "conformance"
 
 
+@pytest.mark.parametrize("engine", [Ours, Trees], ids=lambda engine: engine.name)
 @pytest.mark.parametrize(
     "experiment", [pytest.param(e, id=e.name, marks=pytest.mark.long if e.long else ()) for e in EXPERIMENTS]
 )
-def test_physics_agree_with_theory(experiment: Experiment) -> None:
-    result = run(experiment, Ours)
+def test_physics_agree_with_theory(experiment: Experiment, engine: type[Ours]) -> None:
+    result = run(experiment, engine)
     wrong = [outcome_text(outcome) for outcome in result.outcomes if not outcome.holds]
     assert not wrong, "\n".join([f"{experiment.title} ({experiment.unit}); {experiment.theory.__doc__}", *wrong])
 

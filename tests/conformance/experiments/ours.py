@@ -97,10 +97,11 @@ GROUND = f"""<model name="Ground"><static>true</static><link name="ground"><coll
     <geometry><plane><normal>0 0 1</normal></plane></geometry>{surface_text(100.0, 1.0)}</collision></link></model>"""
 
 
-def scene_text(scene: Scene, folder: Path) -> str:
+def scene_text(scene: Scene, folder: Path, solver: str) -> str:
     """Return the SDFormat file of a scene."""
     return f"""<sdf version="1.9" xmlns:bubblesim="https://bubblesim"><world name="w">
-        <physics name="p" type="ode"><max_step_size>{scene.step!r}</max_step_size>{scene.physics}</physics>
+        <physics name="p" type="ode"><max_step_size>{scene.step!r}</max_step_size>
+        <bubblesim:solver>{solver}</bubblesim:solver>{scene.physics}</physics>
         <bubblesim:time_step>{scene.step * scene.substeps!r}</bubblesim:time_step>
         <gravity>{" ".join(map(repr, map(float, scene.gravity)))}</gravity>{scene.world}
         {GROUND if scene.ground else ""}
@@ -111,12 +112,13 @@ class Ours:
     """A scene that bubblesim runs."""
 
     name = "bubblesim"
+    solver = "ode"
 
     def __init__(self, scene: Scene) -> None:
         """Load the scene."""
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "scene.sdf"
-            path.write_text(scene_text(scene, Path(folder)))
+            path.write_text(scene_text(scene, Path(folder), self.solver))
             self.simulation = bubblesim.Simulation(bubblesim.Scene(str(path)))  # prints no warnings
         self.scene = scene
         self.time = 0.0
@@ -185,3 +187,10 @@ class Ours:
             self.joints[joint].target_effort = value
         else:
             self.joints[joint].target_velocity = value
+
+
+class Trees(Ours):
+    """The same with the solver for trees in generalised coordinates."""
+
+    name = "trees"
+    solver = "bubblesim"

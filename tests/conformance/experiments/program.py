@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 
 from .experiment import Experiment, Result, run
-from .ours import Ours
+from .ours import Ours, Trees
 from .registry import EXPERIMENTS
 from .table import markdown, row_text, to_json
 
@@ -56,7 +56,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for experiment in chosen:
             print(f"{experiment.name:20} {experiment.title}{' (long)' if experiment.long else ''}")
         return 0
-    engines = [Ours, *(peers() if options.peers else [])]
+    engines = [Ours, Trees, *(peers() if options.peers else [])]
     results: dict[str, list[Result]] = {}
     failed = []
     for experiment in chosen:
@@ -64,14 +64,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
             continue
         try:
             results[experiment.name] = [
-                measure(experiment, engine) for engine in engines if engine is Ours or engine.name in experiment.peers
+                measure(experiment, engine)
+                for engine in engines
+                if issubclass(engine, Ours) or engine.name in experiment.peers
             ]
         except Exception as error:  # the other experiments are of use without this one
             print(f"{experiment.name}: FAIL {error!r}", flush=True)
             failed.append(experiment.name)
             continue
         print(row_text(experiment, results[experiment.name], all_cases=options.cases), flush=True)
-        if results[experiment.name][0].failures:
+        if any(result.failures for result in results[experiment.name][:2]):
             failed.append(experiment.name)
     if options.json:
         to_json(options.json, results)

@@ -91,7 +91,17 @@ def markdown(
     A file that has such a table gets the new one instead.
     """
     former = from_json(before) if before else {}
-    head = ["Experiment", "Unit", "Case", "Theory", "Tolerance", *(["Before"] if before else []), "bubblesim", "MuJoCo"]
+    head = [
+        "Experiment",
+        "Unit",
+        "Case",
+        "Theory",
+        "Tolerance",
+        *(["Before"] if before else []),
+        "bubblesim",
+        "trees",
+        "MuJoCo",
+    ]
     lines = ["| " + " | ".join([*head, "PyBullet"]) + " |", "|" + "---|" * (len(head) + 1)]
     for experiment in experiments:
         if experiment.name not in results:
@@ -108,7 +118,8 @@ def markdown(
         if before:
             cells.append(cell(same_case(old, "bubblesim", now.case)))
         others = [
-            same_case(engines, name, now.case) or same_case(old, name, now.case) for name in ("MuJoCo", "PyBullet")
+            same_case(engines, name, now.case) or same_case(old, name, now.case)
+            for name in ("trees", "MuJoCo", "PyBullet")
         ]
         cells += [cell(now), *map(cell, others)]
         lines.append("| " + " | ".join(cells) + " |")
