@@ -15,7 +15,7 @@
 namespace bubblesim {
 
 /// Messages of a topic, each once its frame can be transformed to a target frame, in the order of their time stamps.
-/// tf2's filter says when that is, but it hands out messages that waited for the same transform in another order.
+/// tf2's filter notifies when that is, but of messages that waited for the same transform in any order.
 template <typename Message>
 class PlacedMessages {
  public:
@@ -31,7 +31,7 @@ class PlacedMessages {
         target_(std::move(target)),
         take_(std::move(take)),
         lose_(std::move(lose)),
-        // Before the filter hears of it.
+        // Connected before the filter, so that a message waits when it is ready.
         arrivals_(messages.registerCallback(&PlacedMessages::wait, this)),
         filter_(messages, transforms, target_, queue_size, node) {
     filter_.setTolerance(tolerance);

@@ -6,7 +6,6 @@
 namespace bubblesim {
 namespace {
 
-constexpr Eigen::Index kFew = 32;     // rows, for which Eigen's blocks for large products do not pay
 constexpr double kImmovable = 1e-14;  // of the largest diagonal element
 // Parts of a diagonal element that are added to it where rows repeat each other:
 constexpr double kOfAnyRow = 1e-9;
@@ -146,7 +145,7 @@ void ConstraintRows::add_impulses(const Tree& tree, std::vector<TreeMomentum>& l
 }
 
 /// Leaves a row out along which nothing can move, such as that of a contact of a fixed link.
-void ConstraintRows::rest(int row) {
+void ConstraintRows::leave_out(int row) {
   problem_.a.row(row).setZero();
   problem_.a.col(row).setZero();
   problem_.a(row, row) = 1;
@@ -166,7 +165,7 @@ ConeResult ConstraintRows::solve() {
   for (std::size_t i = 0; i < used_; ++i) gather(trees_[i]);
   const double largest = problem_.a.diagonal().maxCoeff();
   for (int c = 0; c < n; ++c) {
-    if (problem_.a(c, c) <= kImmovable * largest) rest(c);
+    if (problem_.a(c, c) <= kImmovable * largest) leave_out(c);
     problem_.a(c, c) += std::max(rows_[at(c)].softness, rows_[at(c)].singular * problem_.a(c, c));
     for (int r = c + 1; r < n; ++r) problem_.a(c, r) = problem_.a(r, c);
   }

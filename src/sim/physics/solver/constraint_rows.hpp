@@ -65,7 +65,7 @@ class ConstraintRows {
   };
 
   void gather(RowsOfTree& own);
-  void rest(int row);
+  void leave_out(int row);
   void apply(const RowsOfTree& own);
   /// Adds a force and a torque to the last row.
   void act(const TreeBody& first, const TreeBody& second, const Vector3& turn, const Vector3& push,
