@@ -80,10 +80,13 @@ run_python_tests() (
   export LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libstdc++.so)"
   export UBSAN_OPTIONS="log_path=$reports/undefined print_stacktrace=1 halt_on_error=1"
   export LSAN_OPTIONS="suppressions=$root/tests/sanitizers/leak.supp print_suppressions=0 exitcode=0"
-  export ASAN_OPTIONS="log_path=$reports/address detect_leaks=1"
+  # As malloc() without: scripts that ask for more than there is get a MemoryError.
+  export ASAN_OPTIONS="log_path=$reports/address detect_leaks=1 allocator_may_return_null=1"
   cd "$root" || return 1
   echo "[sanitize] address,undefined: Python tests"
-  python tests/sanitizers/run_pytest.py -q -p no:cacheprovider "${PYTHON_TESTS[@]}" || failed=1
+  # Left out: the memory of a queue, because AddressSanitizer keeps what was freed for a while.
+  python tests/sanitizers/run_pytest.py -q -p no:cacheprovider "${PYTHON_TESTS[@]}" \
+    --deselect tests/ros1/test_load.py::test_stopped_subscriber_costs_its_queue_and_the_others_nothing || failed=1
   print_reports "$reports" "$root" || failed=1
   return $failed
 )

@@ -181,7 +181,10 @@ RosBridge::~RosBridge() {
   // Here, not where roscpp releases them: callbacks of scripts must be destroyed on the simulation thread.
   impl_->topics.silence();
   impl_->services.silence();
-  if (leave() && impl_->services.finish_calls(kLastCalls)) return;
+  if (leave() && impl_->services.finish_calls(kLastCalls)) {
+    impl_->master.drop_jobs();  // they hold servers, which use the queue of the services
+    return;
+  }
   log_line("the ROS master at " + master_uri() + " does not answer: ending without unregistering this node");
   [[maybe_unused]] const Impl* const left = impl_.release();  // the remaining thread still uses it
 }

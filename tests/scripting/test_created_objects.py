@@ -240,6 +240,7 @@ def sysCall_actuation():
         change('actuation')
 
 def sysCall_thread():
+    sim.setThreadAutomaticSwitch(False)  # on a slow machine it would be interrupted between two calls
     change('thread')
 
 def sysCall_sensing():

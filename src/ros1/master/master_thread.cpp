@@ -279,6 +279,12 @@ bool MasterThread::run(Job job, std::chrono::milliseconds deadline) {
   }
 }
 
+void MasterThread::drop_jobs() {
+  std::deque<Job> dropped;  // destroyed without the mutex
+  const std::lock_guard lock(shared_->mutex);
+  dropped.swap(shared_->jobs);
+}
+
 bool MasterThread::stop() {
   const std::lock_guard alone(shared_->stop_mutex);
   if (!shared_->thread.joinable()) return true;

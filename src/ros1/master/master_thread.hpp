@@ -65,6 +65,8 @@ class MasterThread {
   /// Ends the node and the thread, within 2 s. Thread-safe. Returns false if a call that cannot be interrupted (a name
   /// lookup) keeps the thread alive: then nothing that jobs and roscpp refer to may be destroyed.
   bool stop();
+  /// Destroys the jobs that stop() left. What they hold may refer to what is older than this thread.
+  void drop_jobs();
 
  private:
   struct Shared;

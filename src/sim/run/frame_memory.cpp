@@ -38,6 +38,14 @@ auto contents(const FrameHead& head) {
   return std::tie(head.revision, head.notices, head.time, head.state, head.links, head.axes, head.closed);
 }
 
+/// As memcmp() and memcpy(), which take no null pointer of an empty vector.
+bool holds(const std::byte* memory, const void* values, std::size_t size) {
+  return size == 0 || std::memcmp(memory, values, size) == 0;
+}
+void copy(std::byte* memory, const void* values, std::size_t size) {
+  if (size > 0) std::memcpy(memory, values, size);
+}
+
 std::size_t count_numbers(const FrameHead& head) { return 7 * std::size_t{head.links} + head.axes; }
 
 }  // namespace
@@ -84,8 +92,8 @@ void FrameMemory::write(const Frame& frame) {
   if (needed > size_) resize(std::max(needed, 2 * size_));  // never smaller: readers map the old size
   std::byte* const poses = memory_ + kNumbersAt;
   std::byte* const axes = poses + pose_bytes;
-  if (contents(head) == contents(last_) && std::memcmp(poses, frame.poses.data(), pose_bytes) == 0 &&
-      std::memcmp(axes, frame.joint_positions.data(), axis_bytes) == 0) {
+  if (contents(head) == contents(last_) && holds(poses, frame.poses.data(), pose_bytes) &&
+      holds(axes, frame.joint_positions.data(), axis_bytes)) {
     return;  // a pause in which nothing happens
   }
   ++head.count;
@@ -94,8 +102,8 @@ void FrameMemory::write(const Frame& frame) {
   sequence->fetch_add(1, std::memory_order_acq_rel);
   std::atomic_thread_fence(std::memory_order_release);
   std::memcpy(memory_ + kHeadAt, &head, sizeof head);
-  std::memcpy(poses, frame.poses.data(), pose_bytes);
-  std::memcpy(axes, frame.joint_positions.data(), axis_bytes);
+  copy(poses, frame.poses.data(), pose_bytes);
+  copy(axes, frame.joint_positions.data(), axis_bytes);
   sequence->fetch_add(1, std::memory_order_release);
   last_ = head;
 }
