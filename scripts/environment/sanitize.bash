@@ -97,6 +97,7 @@ print_reports() {
   local report found=0
   for report in "$1"/*; do
     [[ -e $report ]] || continue
+    grep -qE 'ERROR:|runtime error:' "$report" || continue  # an allocation that was refused is a warning
     if grep -q 'LeakSanitizer: detected' "$report"; then
       awk -v RS= -v ORS='\n\n' -v ours="$2" 'index($0, ours) { print; found = 1 } END { exit !found }' "$report" || continue
     else
