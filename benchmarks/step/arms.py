@@ -82,7 +82,6 @@ class MuJoCo:
     def position(self) -> Any:
         """Return the position of the last link."""
         mujoco.mj_kinematics(self.model, self.data)  # after a step it is that of the place before
-        mujoco.mj_comPos(self.model, self.data)
         return self.data.xipos[-1]
 
 

@@ -6,16 +6,13 @@
 #include <optional>
 #include <utility>
 
+#include "scene/unit_steiner.hpp"
+
 namespace bubblesim {
 namespace {
 
 /// Mass and inertia of bodies that nothing moves, which have none in the file.
 UrdfInertial unit_inertial() { return {1, Vector3(), Matrix3::Identity()}; }
-
-/// The inertia of a point mass of 1 kg at an offset (parallel-axis theorem). m^2
-Matrix3 unit_steiner(const Vector3& offset) {
-  return offset.squaredNorm() * Matrix3::Identity() - offset * offset.transpose();
-}
 
 /// The inertial of a part in the frame of its body.
 UrdfInertial moved(const UrdfInertial& inertial, const Pose& pose) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Velocities, bias forces, mass matrix and factors of a tree.
 #include "physics/solver/tree.hpp"
+#include "scene/unit_steiner.hpp"
 
 namespace bubblesim {
 namespace {
@@ -85,7 +86,7 @@ void Tree::compute_mass() {
     body.inertia = body.axes * links_[index(i)].link.inertia * body.axes.transpose();
     body.mass = links_[index(i)].link.mass;
     body.first = c * body.mass;
-    body.second = body.inertia + body.mass * (c.squaredNorm() * Matrix3::Identity() - c * c.transpose());
+    body.second = body.inertia + body.mass * unit_steiner(c);
   }
   for (int i = links() - 1; i >= 0; --i) {
     const Placed& placed = links_[index(i)];

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 
 #include "physics/solver/tree.hpp"
+#include "scene/unit_steiner.hpp"
 
 namespace bubblesim {
 
@@ -31,11 +32,10 @@ void Tree::set_momenta(const std::vector<TreeMomentum>& wanted) {
       missing.angular -= present.angular;
       mass += link.mass;
       first += c * link.mass;
-      second += body.axes * link.inertia * body.axes.transpose() +
-                link.mass * (c.squaredNorm() * Matrix3::Identity() - c * c.transpose());
+      second += body.axes * link.inertia * body.axes.transpose() + link.mass * unit_steiner(c);
     }
     const Vector3 centre = first / mass;
-    second -= mass * (centre.squaredNorm() * Matrix3::Identity() - centre * centre.transpose());
+    second -= mass * unit_steiner(centre);
     const Vector3 turn = second.ldlt().solve(missing.angular - centre.cross(missing.linear));
     for (int i = root; i < links(); ++i) {
       if (free_root(i) != root) continue;
