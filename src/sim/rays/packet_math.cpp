@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "rays/simd.hpp"
+#include "simd.hpp"
 
 namespace bubblesim::rays {
 namespace {

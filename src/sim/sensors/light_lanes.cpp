@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "rays/simd.hpp"
+#include "simd.hpp"
 
 namespace bubblesim::lanes {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "rays/simd.hpp"
+#include "simd.hpp"
 
 namespace bubblesim::lanes {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/ode/body_state.hpp"
 #include "physics/ode/constraint_defaults.hpp"
 #include "physics/ode/ode_math.hpp"
 
@@ -104,6 +105,11 @@ TreeModel::TreeModel(const PlacedModel& model) : model_(model), numbers_(model.l
     numbers_[root] = tree_.add(link);
     places_.push_back(root);
   }
+  for (std::size_t i = 0; i < places_.size(); ++i) take_inertia(i);
+  keeps_momenta_ =
+      std::any_of(places_.begin(), places_.end(),
+                  [&](std::size_t place) { return tree_.free_root(numbers_[place]) >= 0; }) ||
+      std::any_of(model.joints.begin(), model.joints.end(), [](const auto& joint) { return joint.meter != nullptr; });
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     if (used[i]) continue;
     loops_.push_back(i);
@@ -151,6 +157,11 @@ bool TreeModel::knows_parts() const {
                      [&](std::size_t joint) { return model_.joints[joint].meter == nullptr; });
 }
 
+void TreeModel::take_inertia(std::size_t number) {
+  const Link& link = model_.links[places_[number]];
+  tree_.set_inertia(static_cast<int>(number), link.mass, inertia_of(link.body.get()));
+}
+
 void TreeModel::begin(const Vector3& gravity, double step) {
   const std::size_t count = places_.size();
   poses_.resize(count);
@@ -160,7 +171,7 @@ void TreeModel::begin(const Vector3& gravity, double step) {
     dBodyID body = model_.links[places_[i]].body.get();
     poses_[i] = body_pose(body);
     velocities_[i] = body_velocity(body);
-    tree_.set_inertia(static_cast<int>(i), model_.links[places_[i]].mass, inertia_of(body));
+    if (tree_.mass(static_cast<int>(i)) != model_.links[places_[i]].mass) take_inertia(i);
   }
   tree_.read(poses_, velocities_);
   tree_.set_velocities(tree_.rates());
@@ -168,8 +179,8 @@ void TreeModel::begin(const Vector3& gravity, double step) {
   added_.setZero(tree_.dofs());
   for (Axis& axis : axes_) {
     axis.forces = model_.joints[axis.joint].joint->forces(axis.number);
-    const std::optional<MotorForce>& damper = axis.forces.damper;
-    if (axis.dof < 0 || !damper || !(damper->softness > 0)) continue;
+    const MotorForce* damper = axis.forces.damper;
+    if (axis.dof < 0 || damper == nullptr || !(damper->softness > 0)) continue;
     // A force at the velocity after the substep: stable for any coefficient.
     const double coefficient = 1 / damper->softness;
     added_[axis.dof] = step * coefficient;
@@ -184,9 +195,11 @@ void TreeModel::begin(const Vector3& gravity, double step) {
     wrench = {to_vector(dBodyGetForce(body)), to_vector(dBodyGetTorque(body))};
     if (dBodyGetGravityMode(body) != 0) wrench.force += gravity * link.mass;
     const Matrix3& inertia = tree_.inertia(static_cast<int>(i));
-    const Vector3 linear = velocities_[i].linear * link.mass + wrench.force * step;
-    const Vector3 turning = inertia * velocities_[i].angular + wrench.torque * step;
-    loose_[i] = {linear, turning + (poses_[i].position - tree_.origin()).cross(linear)};
+    if (keeps_momenta_) {
+      const Vector3 linear = velocities_[i].linear * link.mass + wrench.force * step;
+      const Vector3 turning = inertia * velocities_[i].angular + wrench.torque * step;
+      loose_[i] = {linear, turning + (poses_[i].position - tree_.origin()).cross(linear)};
+    }
     // A velocity that the joints do not allow, such as one that was set, acts as an impulse.
     const Twist allowed = tree_.velocity(static_cast<int>(i));
     wrench.force += (velocities_[i].linear - allowed.linear) * (link.mass / step);
@@ -312,16 +325,20 @@ void TreeModel::couple(std::size_t number, ConstraintRows& rows, double step) {
   rows.bound(block);
 }
 
-/// Moves the tree. Only what acts on it from outside changes the momentum of a robot: the efforts of its joints do not.
 void TreeModel::move(const ConstraintRows& rows, double step) {
   const Vector3 before = tree_.origin();
-  rows.add_impulses(tree_, loose_);
+  if (keeps_momenta_) rows.add_impulses(tree_, loose_);
   tree_.move(step);
   tree_.place();
   tree_.set_velocities(tree_.rates());
+  if (keeps_momenta_) keep_momenta(before);
+}
+
+/// Only what acts on a floating robot from outside changes its momentum: the efforts of its joints do not.
+void TreeModel::keep_momenta(const Vector3& origin_before) {
   momenta_.assign(places_.size(), {});
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    loose_[i].angular += (before - tree_.origin()).cross(loose_[i].linear);
+    loose_[i].angular += (origin_before - tree_.origin()).cross(loose_[i].linear);
     const int root = tree_.free_root(static_cast<int>(i));
     if (root < 0) continue;
     momenta_[static_cast<std::size_t>(root)].linear += loose_[i].linear;
@@ -358,8 +375,7 @@ void TreeModel::end(const ConstraintRows& rows, double step) {
     dBodyID body = model_.links[places_[i]].body.get();
     const Pose pose = tree_.pose(static_cast<int>(i));
     const Twist velocity = tree_.velocity(static_cast<int>(i));
-    dBodySetPosition(body, pose.position.x(), pose.position.y(), pose.position.z());
-    dBodySetQuaternion(body, to_ode(pose.orientation).data());
+    set_body_pose(body, pose);
     dBodySetLinearVel(body, velocity.linear.x(), velocity.linear.y(), velocity.linear.z());
     dBodySetAngularVel(body, velocity.angular.x(), velocity.angular.y(), velocity.angular.z());
     dBodySetForce(body, 0, 0, 0);

@@ -49,12 +49,14 @@ class TreeModel {
   };
 
   void add_link(std::size_t joint, int parent);
+  void take_inertia(std::size_t number);
   void add_axis_rows(const Axis& axis, ConstraintRows& rows, double step);
   int add_axis_row(const Axis& axis, ConstraintRows& rows);
   void add_stops(const Axis& axis, ConstraintRows& rows, double step);
   void close_loop(std::size_t joint, ConstraintRows& rows, double step);
   void couple(std::size_t gearbox, ConstraintRows& rows, double step);
   void move(const ConstraintRows& rows, double step);
+  void keep_momenta(const Vector3& origin_before);
   void report_reactions();
   TreeBody body_of(ObjectId link);
   TreeBody body_named(const std::string& name);
@@ -73,6 +75,7 @@ class TreeModel {
   std::vector<Pose> poses_;
   std::vector<Twist> velocities_;
   std::vector<Wrench> wrenches_;
+  bool keeps_momenta_ = false;         // for floating roots, and for force-torque sensors
   std::vector<TreeMomentum> loose_;    // the links' at the end of the substep if they were not jointed
   std::vector<TreeMomentum> momenta_;  // of what links of kFree carry, likewise
   Eigen::VectorXd forces_, added_;

@@ -20,8 +20,7 @@ class Hinge final : public Joint {
     dJointSetHingeAxis(joint_.get(), direction.x(), direction.y(), direction.z());
     const AxisDescription& axis = description.axes[0];
     counts_turns_ = beyond_half_a_turn(axis.lower) || beyond_half_a_turn(axis.upper) || axis.spring_stiffness > 0;
-    add_rows(world, Motor(joint_.get(), dJointSetHingeParam, dJointGetHingeParam, 0), Motion::kTurns,
-             {direction, site.child, site.parent});
+    add_rows(world, Motor(joint_.get(), dJointSetHingeParam, 0), Motion::kTurns, {direction, site.child, site.parent});
   }
 
   /// From -pi to pi; with limits beyond, or a spring, full turns are counted.

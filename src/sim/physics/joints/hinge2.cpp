@@ -22,9 +22,9 @@ class Hinge2 final : public Joint {
     const dVector3 axis1 = {steering.x(), steering.y(), steering.z()};
     const dVector3 axis2 = {rolling.x(), rolling.y(), rolling.z()};
     dJointSetHinge2Axes(joint_.get(), axis1, axis2);
-    add_rows(world, Motor(joint_.get(), dJointSetHinge2Param, dJointGetHinge2Param, 0), Motion::kTurns,
+    add_rows(world, Motor(joint_.get(), dJointSetHinge2Param, 0), Motion::kTurns,
              {steering, site.parent, site.child, 1});
-    add_rows(world, Motor(joint_.get(), dJointSetHinge2Param, dJointGetHinge2Param, 1), Motion::kTurns,
+    add_rows(world, Motor(joint_.get(), dJointSetHinge2Param, 1), Motion::kTurns,
              {rolling, site.parent, site.child, 2});
   }
 

@@ -66,8 +66,8 @@ void Joint::add_rows(dWorldID world, Motor rows, Motion motion, const AxisLine& 
   axis.rows->set(dParamStopERP, kErrorReduction);
   if (description.lower == description.upper) set_range(*axis.rows, description.lower, description.upper);
 
-  const Motor* free_rows = has_limits(description) ? nullptr : &*axis.rows;
-  const auto take = [&](std::optional<Motor>& own) -> const Motor* {
+  Motor* free_rows = has_limits(description) ? nullptr : &*axis.rows;
+  const auto take = [&](std::optional<Motor>& own) -> Motor* {
     if (free_rows != nullptr) return std::exchange(free_rows, nullptr);
     own = motion == Motion::kTurns ? Motor::turning(world, line) : Motor::sliding(world, line);
     return &*own;
@@ -158,9 +158,9 @@ void Joint::drive(double step) {
 AxisForces Joint::forces(int axis) const {
   const Axis& asked = axes_[static_cast<std::size_t>(axis)];
   AxisForces made;
-  if (asked.motor != nullptr) made.motor = asked.motor->force();
-  if (asked.friction != nullptr) made.friction = asked.friction->force();
-  if (asked.damper != nullptr) made.damper = asked.damper->force();
+  if (asked.motor != nullptr) made.motor = &asked.motor->force();
+  if (asked.friction != nullptr) made.friction = &asked.friction->force();
+  if (asked.damper != nullptr) made.damper = &asked.damper->force();
   return made;
 }
 
@@ -173,13 +173,13 @@ void Joint::drive_motor(int index, double step) {
     // Stop at the limit: a motor and a stop with unlimited forces would settle somewhere behind it.
     const double speed = target_speed(description, axis.gain * axis.target_velocity);
     const double room = speed > 0 ? description.upper - here : here - description.lower;
-    axis.motor->set(dParamVel, std::copysign(std::min(std::abs(speed), std::max(room, 0.0) / step), speed));
+    axis.motor->aim(std::copysign(std::min(std::abs(speed), std::max(room, 0.0) / step), speed));
     return;
   }
   const double gap = has_limits(description)
                          ? std::clamp(axis.target_position, description.lower, description.upper) - here
                          : shortest_turn(here, axis.target_position);
-  axis.motor->set(dParamVel, target_speed(description, gap / std::max(kServoTime / axis.gain, step)));
+  axis.motor->aim(target_speed(description, gap / std::max(kServoTime / axis.gain, step)));
 }
 
 void Joint::follow_leader(int index, double step) {
@@ -196,7 +196,7 @@ void Joint::follow_leader(int index, double step) {
   const double reachable = std::clamp(wanted, description.lower, description.upper);
   const double along = reachable == wanted ? mimic.multiplier * axis.leader->velocity(mimic.axis) : 0;
   const double speed = along + kErrorReduction * (reachable - axis.followed) / step;
-  axis.motor->set(dParamVel, target_speed(description, speed));
+  axis.motor->aim(target_speed(description, speed));
 }
 
 void Joint::drive_spring(int index, double step) {

@@ -26,9 +26,11 @@ struct JointSite {
   Vector3 child_shaft;
 };
 
-/// What acts along an axis in a substep, beside its stops.
+/// What acts along an axis in a substep, beside its stops; null: nothing. Valid while the joint lives.
 struct AxisForces {
-  std::optional<MotorForce> motor, friction, damper;
+  const MotorForce* motor = nullptr;
+  const MotorForce* friction = nullptr;
+  const MotorForce* damper = nullptr;
 };
 
 /// Shafts of a gearbox: the child turns by -ratio times the angle of the parent, both in the reference body.
@@ -121,9 +123,9 @@ class Joint {
     Stop stop = Stop::kNone;
     Leaving leaving = Leaving::kNot;
     std::optional<Motor> own_motor, own_friction, own_damper;
-    const Motor* motor = nullptr;     // points to one of the above; null in a gearbox
-    const Motor* friction = nullptr;  // null when there is none
-    const Motor* damper = nullptr;
+    Motor* motor = nullptr;     // points to one of the above; null in a gearbox
+    Motor* friction = nullptr;  // null when there is none
+    Motor* damper = nullptr;
   };
   void apply_motor(Axis& axis);
   void drive_motor(int index, double step);

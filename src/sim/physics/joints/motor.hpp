@@ -27,11 +27,9 @@ struct MotorForce {
 class Motor {
  public:
   using SetParameter = void (*)(dJointID, int, dReal);
-  using GetParameter = dReal (*)(dJointID, int);
 
   /// The rows of `joint` for one of its axes; `group` is ODE's index of that axis, from 0.
-  Motor(dJointID joint, SetParameter set, GetParameter get, int group)
-      : joint_(joint), set_(set), get_(get), group_(group) {}
+  Motor(dJointID joint, SetParameter set, int group) : joint_(joint), set_(set), group_(group) {}
   /// A separate motor joint between the same bodies.
   static Motor turning(dWorldID world, const AxisLine& line);
   static Motor sliding(dWorldID world, const AxisLine& line);
@@ -41,24 +39,26 @@ class Motor {
   /// Sets an ODE parameter dParam..., given without the offset of the group.
   void set(int parameter, double value) const { set_(joint_, group_ * dParamGroup + parameter, value); }
 
-  MotorForce force() const;
+  /// What it was set to.
+  const MotorForce& force() const { return force_; }
 
   /// Holds `velocity` with a force of at most `max_force` (N or N m), which may be infinite.
-  void hold(double velocity, double max_force) const;
+  void hold(double velocity, double max_force);
+  /// Changes the velocity that it holds.
+  void aim(double velocity);
   /// Applies a force of `coefficient` (N s/m or N m s/rad) times the difference to `velocity`. Uses the velocity at the
   /// end of the step, so any coefficient is stable.
-  void damp(double velocity, double coefficient) const;
+  void damp(double velocity, double coefficient);
 
  private:
   using SetAxis = void (*)(dJointID, int, int, dReal, dReal, dReal);
-  static Motor between(const AxisLine& line, ode::JointHandle joint, SetAxis set_axis, SetParameter set,
-                       GetParameter get);
+  static Motor between(const AxisLine& line, ode::JointHandle joint, SetAxis set_axis, SetParameter set);
 
   ode::JointHandle own_;  // null when the rows are part of another joint
   dJointID joint_;
   SetParameter set_;
-  GetParameter get_;
   int group_;
+  MotorForce force_;  // ODE is slow to ask
 };
 
 }  // namespace bubblesim

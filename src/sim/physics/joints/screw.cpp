@@ -27,8 +27,7 @@ class Screw final : public Joint {
     const Vector3 direction = axis_direction(description, 0, site);
     dJointSetPistonAnchor(joint_.get(), site.pose.position.x(), site.pose.position.y(), site.pose.position.z());
     dJointSetPistonAxis(joint_.get(), direction.x(), direction.y(), direction.z());
-    add_rows(world, Motor(joint_.get(), dJointSetPistonParam, dJointGetPistonParam, 1), Motion::kTurns,
-             {direction, site.child, site.parent});
+    add_rows(world, Motor(joint_.get(), dJointSetPistonParam, 1), Motion::kTurns, {direction, site.child, site.parent});
   }
 
   /// Radians, counting full turns.

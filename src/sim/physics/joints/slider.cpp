@@ -12,7 +12,7 @@ class Slider final : public Joint {
     dJointAttach(joint_.get(), site.child, site.parent);
     const Vector3 direction = axis_direction(description, 0, site);
     dJointSetSliderAxis(joint_.get(), direction.x(), direction.y(), direction.z());
-    add_rows(world, Motor(joint_.get(), dJointSetSliderParam, dJointGetSliderParam, 0), Motion::kSlides,
+    add_rows(world, Motor(joint_.get(), dJointSetSliderParam, 0), Motion::kSlides,
              {direction, site.child, site.parent});
   }
 

@@ -21,9 +21,9 @@ class Universal final : public Joint {
     const Vector3 of_child = axis_direction(description, 1, site);
     dJointSetUniversalAxis1(joint_.get(), of_child.x(), of_child.y(), of_child.z());
     dJointSetUniversalAxis2(joint_.get(), of_parent.x(), of_parent.y(), of_parent.z());
-    add_rows(world, Motor(joint_.get(), dJointSetUniversalParam, dJointGetUniversalParam, 1), Motion::kTurns,
+    add_rows(world, Motor(joint_.get(), dJointSetUniversalParam, 1), Motion::kTurns,
              {of_parent, site.child, site.parent, 2});
-    add_rows(world, Motor(joint_.get(), dJointSetUniversalParam, dJointGetUniversalParam, 0), Motion::kTurns,
+    add_rows(world, Motor(joint_.get(), dJointSetUniversalParam, 0), Motion::kTurns,
              {of_child, site.child, site.parent, 1});
   }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "bubblesim/error.hpp"
+#include "physics/ode/ode_math.hpp"
 #include "validation/limits.hpp"
 
 namespace bubblesim {
@@ -43,13 +44,16 @@ BodyNumbers numbers_of(dBodyID body) {
   return numbers;
 }
 
+void set_body_pose(dBodyID body, const Pose& pose) {
+  dBodySetPosition(body, pose.position.x(), pose.position.y(), pose.position.z());  // its shapes note that they moved
+  auto* quaternion = const_cast<dReal*>(dBodyGetQuaternion(body));
+  std::copy_n(to_ode(pose.orientation).data(), 4, quaternion);
+  dRfromQ(const_cast<dReal*>(dBodyGetRotation(body)), quaternion);
+}
+
 void set_numbers(dBodyID body, const BodyNumbers& numbers) {
   const dReal* n = numbers.data();
-  dBodySetPosition(body, n[0], n[1], n[2]);  // its shapes note that they moved
-  // dBodySetQuaternion() would normalize once more, which may change the last bit.
-  auto* quaternion = const_cast<dReal*>(dBodyGetQuaternion(body));
-  std::copy_n(n + 3, 4, quaternion);
-  dRfromQ(const_cast<dReal*>(dBodyGetRotation(body)), quaternion);
+  set_body_pose(body, {to_vector(n), to_quaternion(n + 3)});
   dBodySetLinearVel(body, n[7], n[8], n[9]);
   dBodySetAngularVel(body, n[10], n[11], n[12]);
   dBodySetForce(body, n[13], n[14], n[15]);

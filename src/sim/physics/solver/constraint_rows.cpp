@@ -47,10 +47,7 @@ void ConstraintRows::add_way(const TreeBody& body, const Vector3& turn, const Ve
   double* own = values(*body.tree);
   const Vector3 moment = sign * (turn + (point - body.tree->origin()).cross(push));
   const Vector3 force = sign * push;
-  for (int k = body.tree->last_dof(body.link); k >= 0; k = body.tree->before(k)) {
-    const TreeColumn& column = body.tree->column(k);
-    own[k] += column.turn.dot(moment) + column.slide.dot(force);
-  }
+  body.tree->project(body.link, moment, force, own);
 }
 
 void ConstraintRows::act(const TreeBody& first, const TreeBody& second, const Vector3& turn, const Vector3& push,
@@ -105,14 +102,9 @@ void ConstraintRows::gather(RowsOfTree& own) {
     }
     problem_.b[own.rows[at(r)]] -= velocity;
   }
-  own.tree->solve_upper(own.solved);
-  square_.set_zero(rows, rows);
-  for (int k = 0; k < dofs; ++k) {
-    const double* column = own.solved[k];
-    for (int c = 0; c < rows; ++c) {
-      if (column[c] != 0) square_.add(square_[c], column[c] * own.tree->inverse_diagonal(k), column, c);
-    }
-  }
+  const BranchedMatrix& mass = own.tree->mass_matrix();
+  mass.solve_upper(own.solved);
+  square_.set_weighted_square(own.solved, mass.inverse_diagonals());
   for (int c = 0; c < rows; ++c) {
     const double* column = square_[c];
     for (int r = c; r < rows; ++r) problem_.a(own.rows[at(r)], own.rows[at(c)]) += column[r];
@@ -121,13 +113,14 @@ void ConstraintRows::gather(RowsOfTree& own) {
 
 /// u += L^-1 D^-1 L^-T J^T x
 void ConstraintRows::apply(const RowsOfTree& own) {
+  const BranchedMatrix& mass = own.tree->mass_matrix();
   change_.resize(own.tree->dofs());
   for (int k = 0; k < own.tree->dofs(); ++k) {
     double sum = 0;
     for (int r = 0; r < own.solved.rows(); ++r) sum += own.solved[k][r] * problem_.x[own.rows[at(r)]];
-    change_[k] = sum * own.tree->inverse_diagonal(k);
+    change_[k] = sum * mass.inverse_diagonal(k);
   }
-  own.tree->solve_lower(change_.data());
+  mass.solve_lower(change_.data());
   own.tree->rates() += change_;
 }
 

@@ -38,15 +38,10 @@ int Tree::add(const TreeLink& link) {
   placed.free_root = link.motion == TreeMotion::kFree ? number : link.parent < 0 ? -1 : free_root(link.parent);
   placed.axis = link.in_parent.orientation * link.axis;
   for (int i = 0; i < placed.dof_count; ++i) {
-    before_.push_back(placed.last_dof);
-    run_.push_back(placed.last_dof >= 0 && placed.last_dof == dofs() - 1 ? run_.back() : dofs());
-    depth_.push_back(placed.last_dof < 0 ? 0 : depth_[index(placed.last_dof)] + 1);
-    row_.push_back(matrix_.size());
-    matrix_.resize(matrix_.size() + depth_.back() + 1);
-    placed.last_dof = dofs();
+    placed.last_dof = mass_matrix_.add(placed.last_dof);
     columns_.emplace_back();
+    directions_.add();
   }
-  inverse_diagonal_.resize(columns_.size());
   rates_ = Eigen::VectorXd::Zero(dofs());
   links_.push_back(placed);
   joints_.emplace_back();
@@ -160,12 +155,12 @@ void Tree::place_joint(int number) {
   const TreeLink& link = placed.link;
   const Body& parent = parent_of(link);
   Body& body = bodies_[index(number)];
-  TreeColumn* column = columns_.data() + placed.first_dof;
-  const auto turning = [&](const Vector3& axis) { *column++ = {axis, body.anchor.cross(axis)}; };
+  int dof = placed.first_dof;
+  const auto turning = [&](const Vector3& axis) { set_column(dof++, {axis, body.anchor.cross(axis)}); };
   if (link.motion == TreeMotion::kFree) {
     body.anchor = body.centre;
     for (int k = 0; k < 3; ++k) turning(Vector3::Unit(k));
-    for (int k = 0; k < 3; ++k) *column++ = {Vector3(), Vector3::Unit(k)};
+    for (int k = 0; k < 3; ++k) set_column(dof++, {Vector3(), Vector3::Unit(k)});
     return;
   }
   const Vector3 axis = parent.axes * placed.axis;
@@ -176,10 +171,10 @@ void Tree::place_joint(int number) {
       for (int k = 0; k < 3; ++k) turning(Vector3::Unit(k));
       break;
     case TreeMotion::kSlides:
-      *column = {Vector3(), axis};
+      set_column(dof, {Vector3(), axis});
       break;
     case TreeMotion::kScrews:
-      *column = {axis, body.anchor.cross(axis) + axis * link.lead};
+      set_column(dof, {axis, body.anchor.cross(axis) + axis * link.lead});
       break;
     case TreeMotion::kTwoAxes:
       turning(axis);
@@ -191,6 +186,11 @@ void Tree::place_joint(int number) {
     default:
       break;
   }
+}
+
+void Tree::set_column(int dof, const RigidMotion& column) {
+  columns_[index(dof)] = column;
+  directions_.set(dof, column);
 }
 
 void Tree::move(double step) {

@@ -2,8 +2,8 @@
 // A tree of rigid links in generalised coordinates: topology, kinematics, mass matrix and its factors.
 //
 // After R. Featherstone, "Rigid Body Dynamics Algorithms", 2008: composite rigid bodies (chapter 6), recursive
-// Newton-Euler (chapter 5), and the factors L^T D L that keep the zeros of branches (section 6.5). All vectors have
-// world axes; moments and positions refer to the origin of the tree, the first link's centre of mass.
+// Newton-Euler (chapter 5). All vectors have world axes; moments and positions refer to the origin of the tree, the
+// first link's centre of mass.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,8 @@
 
 #include "bubblesim/math.hpp"
 #include "bubblesim/wrench.hpp"
-#include "physics/solver/columns.hpp"
+#include "physics/solver/branched_matrix.hpp"
+#include "physics/solver/directions.hpp"
 
 namespace bubblesim {
 
@@ -45,17 +46,12 @@ struct TreeMomentum {
   Vector3 angular;  ///< N m s, about the origin of the tree
 };
 
-/// A direction of motion: a point at r moves with `slide` + `turn` x r.
-struct TreeColumn {
-  Vector3 turn;
-  Vector3 slide;
-};
-
 class Tree {
  public:
   /// Adds a link; returns its number.
   int add(const TreeLink& link);
   void set_inertia(int link, double mass, const Matrix3& inertia);
+  double mass(int link) const { return links_[index(link)].link.mass; }
 
   int links() const { return static_cast<int>(links_.size()); }
   int parent(int link) const { return links_[index(link)].link.parent; }
@@ -65,7 +61,7 @@ class Tree {
   /// The last degree of freedom that moves a link; -1: none.
   int last_dof(int link) const { return links_[index(link)].last_dof; }
   /// The degree of freedom before another on the way to the world; -1: none.
-  int before(int dof) const { return before_[index(dof)]; }
+  int before(int dof) const { return mass_matrix_.before(dof); }
 
   /// Takes places, joints and rates from poses and velocities of the centres of mass, by link. Joints and rates drop
   /// what the joints do not allow.
@@ -79,26 +75,22 @@ class Tree {
   /// Computes the velocities of the links from rates, at the present place.
   void set_velocities(const Eigen::VectorXd& rates);
   Pose pose(int link) const;
-  Twist velocity(int link) const { return {bodies_[index(link)].velocity, bodies_[index(link)].spin}; }
+  Twist velocity(int link) const {
+    const Body& body = bodies_[index(link)];
+    return {body.velocity.at(body.centre), body.velocity.turn};
+  }
   const Vector3& origin() const { return origin_; }
-  const TreeColumn& column(int dof) const { return columns_[index(dof)]; }
+  /// Adds to the degrees of freedom that move a link, from `forces` of all, what a force and its moment about the
+  /// origin do along them.
+  void project(int link, const Vector3& moment, const Vector3& force, double* forces) const;
 
-  /// Factors the mass matrix plus `added`, kg or kg m^2 by degree of freedom, at the present place.
-  void factor(const Eigen::VectorXd& added);
-  /// Element of the mass matrix; `before` is `dof` or on its way to the world. Valid until factor() was called.
-  double& entry(int dof, int before) { return matrix_[row_[index(dof)] + depth_[index(before)]]; }
-  double entry(int dof, int before) const { return matrix_[row_[index(dof)] + depth_[index(before)]]; }
-  /// Computes the mass matrix at the present place, without factors.
+  /// Computes the mass matrix at the present place.
   void compute_mass();
-  /// Of a link about its centre of mass in world axes, kg m^2. Valid after factor() or compute_mass().
+  /// Of a link about its centre of mass in world axes, kg m^2. After compute_mass().
   const Matrix3& inertia(int link) const { return bodies_[index(link)].inertia; }
-  /// Half the way of a solution: y = L^-T y.
-  void solve_upper(double* y) const;
-  /// Likewise for each row of y: y = y L^-1.
-  void solve_upper(Columns& y) const;
-  /// y = L^-1 y.
-  void solve_lower(double* y) const;
-  double inverse_diagonal(int dof) const { return inverse_diagonal_[index(dof)]; }
+  /// Computes and factors the mass matrix plus `added`, kg or kg m^2 by degree of freedom, at the present place.
+  void factor(const Eigen::VectorXd& added);
+  const BranchedMatrix& mass_matrix() const { return mass_matrix_; }
 
   /// The generalised forces that rates and wrenches on links (about their centres of mass) need, without those of
   /// accelerated rates. After factor(), and set_velocities() of the same rates.
@@ -132,8 +124,8 @@ class Tree {
     Quaternion orientation;
     Vector3 centre;  // from the origin
     Vector3 anchor;  // of its joint, likewise
-    Vector3 velocity, spin;
-    Vector3 pull, turn;  // acceleration without that of the rates
+    RigidMotion velocity;
+    RigidMotion acceleration;  // the derivative of `velocity` while the rates are constant
     Vector3 force, moment;
     Matrix3 inertia = Matrix3::Zero();  // world axes, about the centre
     // Of the link with all that it carries, about the origin:
@@ -146,19 +138,16 @@ class Tree {
   const Body& parent_of(const TreeLink& link) const { return link.parent < 0 ? world_ : bodies_[index(link.parent)]; }
   void set_origin(const Vector3& origin);
   void place_joint(int link);
+  void set_column(int dof, const RigidMotion& column);
   void accelerate(int link, const Eigen::VectorXd& rates);
 
   std::vector<Placed> links_;
   std::vector<TreeJointState> joints_;
   std::vector<Body> bodies_;
   Body world_;
-  std::vector<TreeColumn> columns_;
-  std::vector<int> before_;
-  std::vector<int> run_;  // the first of the degrees of freedom that lead to this one with consecutive numbers
-  std::vector<std::size_t> depth_;
-  std::vector<std::size_t> row_;
-  std::vector<double> matrix_;
-  std::vector<double> inverse_diagonal_;
+  std::vector<RigidMotion> columns_;
+  Directions directions_;  // the columns once more
+  BranchedMatrix mass_matrix_;
   Eigen::VectorXd rates_, middle_, bias_, change_;
   Vector3 origin_;
 };

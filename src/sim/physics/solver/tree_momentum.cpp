@@ -11,8 +11,9 @@ namespace bubblesim {
 TreeMomentum Tree::momentum(int number) const {
   const TreeLink& link = links_[index(number)].link;
   const Body& body = bodies_[index(number)];
-  const Vector3 linear = body.velocity * link.mass;
-  return {linear, body.centre.cross(linear) + body.axes * (link.inertia * (body.axes.transpose() * body.spin))};
+  const Vector3 linear = body.velocity.at(body.centre) * link.mass;
+  return {linear,
+          body.centre.cross(linear) + body.axes * (link.inertia * (body.axes.transpose() * body.velocity.turn))};
 }
 
 void Tree::set_momenta(const std::vector<TreeMomentum>& wanted) {
@@ -37,11 +38,9 @@ void Tree::set_momenta(const std::vector<TreeMomentum>& wanted) {
     const Vector3 centre = first / mass;
     second -= mass * unit_steiner(centre);
     const Vector3 turn = second.ldlt().solve(missing.angular - centre.cross(missing.linear));
+    const RigidMotion change{turn, missing.linear / mass - turn.cross(centre)};
     for (int i = root; i < links(); ++i) {
-      if (free_root(i) != root) continue;
-      Body& body = bodies_[index(i)];
-      body.velocity += missing.linear / mass + turn.cross(body.centre - centre);
-      body.spin += turn;
+      if (free_root(i) == root) bodies_[index(i)].velocity += change;
     }
   }
 }

@@ -84,7 +84,7 @@ TEST(MassMatrix, GivesTheKineticEnergyOfTheLinks) {
     double sum = 0;
     for (int k = 0; k < tree.dofs(); ++k) {
       for (int j = k; j >= 0; j = tree.before(j)) {
-        sum += (j == k ? 0.5 : 1) * tree.entry(k, j) * tree.rates()[k] * tree.rates()[j];
+        sum += (j == k ? 0.5 : 1) * tree.mass_matrix().entry(k, j) * tree.rates()[k] * tree.rates()[j];
       }
     }
     tree.set_velocities(tree.rates());
@@ -98,14 +98,14 @@ TEST(MassMatrix, FactorsSolveIt) {
   tree.compute_mass();
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
   for (int k = 0; k < n; ++k) {
-    for (int j = k; j >= 0; j = tree.before(j)) dense(k, j) = dense(j, k) = tree.entry(k, j);
+    for (int j = k; j >= 0; j = tree.before(j)) dense(k, j) = dense(j, k) = tree.mass_matrix().entry(k, j);
   }
   const Eigen::VectorXd right = Eigen::VectorXd::LinSpaced(n, -1, 2);
   Eigen::VectorXd x = right;
   tree.factor(Eigen::VectorXd::Zero(n));
-  tree.solve_upper(x.data());
-  for (int k = 0; k < n; ++k) x[k] *= tree.inverse_diagonal(k);
-  tree.solve_lower(x.data());
+  tree.mass_matrix().solve_upper(x.data());
+  for (int k = 0; k < n; ++k) x[k] *= tree.mass_matrix().inverse_diagonal(k);
+  tree.mass_matrix().solve_lower(x.data());
   EXPECT_LT((dense * x - right).norm(), 1e-10);
 }
 
