@@ -9,10 +9,13 @@
 #include "physics/ode/body_state.hpp"
 #include "physics/ode/constraint_defaults.hpp"
 #include "physics/ode/ode_math.hpp"
+#include "physics/solver/turns.hpp"
 
 namespace bubblesim {
 namespace {
 
+constexpr double kMostTurn = 0.5;        // rad in a substep, of a link that swings
+constexpr double kMostTurnInSeries = 3;  // rad in a substep, of all links in series if they turned as fast
 constexpr double kReachOfStop = 1000;  // rad/s^2 or m/s^2, with which an axis may reach a stop in a substep
 
 TreeMotion motion_of(const std::string& type) {
@@ -106,6 +109,7 @@ TreeModel::TreeModel(const PlacedModel& model) : model_(model), numbers_(model.l
     places_.push_back(root);
   }
   for (std::size_t i = 0; i < places_.size(); ++i) take_inertia(i);
+  note_what_swings();
   keeps_momenta_ =
       std::any_of(places_.begin(), places_.end(),
                   [&](std::size_t place) { return tree_.free_root(numbers_[place]) >= 0; }) ||
@@ -161,6 +165,40 @@ void TreeModel::take_inertia(std::size_t number) {
   const Link& link = model_.links[places_[number]];
   tree_.set_inertia(static_cast<int>(number), link.mass, inertia_of(link.body.get()));
 }
+
+void TreeModel::note_what_swings() {
+  std::vector<bool> swings(places_.size(), false);
+  for (int i = 0; i < tree_.links(); ++i) {
+    if (tree_.dof_count(i) > 1) swings[static_cast<std::size_t>(i)] = true;
+    if (tree_.parent(i) >= 0) swings[static_cast<std::size_t>(tree_.parent(i))] = true;
+  }
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (swings[i]) swinging_.push_back(static_cast<int>(i));
+  }
+  std::vector<int> in_series(places_.size(), 0);
+  int most = 1;
+  for (int i = 0; i < tree_.links(); ++i) {
+    const int before = tree_.parent(i) < 0 ? 0 : in_series[static_cast<std::size_t>(tree_.parent(i))];
+    most = std::max(most, in_series[static_cast<std::size_t>(i)] = before + (tree_.dof_count(i) > 0 ? 1 : 0));
+  }
+  most_turn_ = std::min(kMostTurn, kMostTurnInSeries / most);
+}
+
+bool TreeModel::turns_too_far(double step) const {
+  return std::any_of(swinging_.begin(), swinging_.end(), [&](int link) {
+    dBodyID body = model_.links[places_[static_cast<std::size_t>(link)]].body.get();
+    return to_vector(dBodyGetAngularVel(body)).norm() * step > most_turn_;
+  });
+}
+
+/// Likewise at the rates that were found.
+bool TreeModel::would_turn_too_far(double step) {
+  if (tree_.rates().lpNorm<1>() * step < most_turn_) return false;
+  tree_.set_velocities(tree_.rates());
+  return std::any_of(swinging_.begin(), swinging_.end(),
+                     [&](int link) { return tree_.velocity(link).angular.norm() * step > most_turn_; });
+}
+
 
 void TreeModel::begin(const Vector3& gravity, double step) {
   const std::size_t count = places_.size();
@@ -367,14 +405,22 @@ void TreeModel::report_reactions() {
   }
 }
 
+/// Links that would turn too far go straight on, with the energy that they have; joints open as they do with ODE.
 void TreeModel::end(const ConstraintRows& rows, double step) {
   for (const MotorRow& motor : motors_) motor.meter->add(rows.impulse(motor.row));
-  move(rows, step);
-  report_reactions();
+  const bool is_moved = !would_turn_too_far(step);
+  if (is_moved) {
+    move(rows, step);
+    report_reactions();
+  }
   for (std::size_t i = 0; i < places_.size(); ++i) {
     dBodyID body = model_.links[places_[i]].body.get();
-    const Pose pose = tree_.pose(static_cast<int>(i));
     const Twist velocity = tree_.velocity(static_cast<int>(i));
+    Pose pose = tree_.pose(static_cast<int>(i));
+    if (!is_moved) {
+      pose.position += velocity.linear * step;
+      pose.orientation = (turn_by(velocity.angular * step) * pose.orientation).normalized();
+    }
     set_body_pose(body, pose);
     dBodySetLinearVel(body, velocity.linear.x(), velocity.linear.y(), velocity.linear.z());
     dBodySetAngularVel(body, velocity.angular.x(), velocity.angular.y(), velocity.angular.z());

@@ -22,6 +22,11 @@ class TreeModel {
   /// Whether the present parts of the model are known: not planar motors and sensors in joints that close a loop.
   bool knows_parts() const;
 
+  /// Whether a link turns so far in a substep that the forces of its rotation, at the rates before and after, do not
+  /// tell what they are in between: such rates would grow. Wheels and other links about whose axis all else turns may
+  /// turn as fast as they like.
+  bool turns_too_far(double step) const;
+
   TreeBody body(const Link& link);
 
   /// Takes the state from ODE's bodies, and the rates to those at the end of the substep without motors, stops and
@@ -50,6 +55,8 @@ class TreeModel {
 
   void add_link(std::size_t joint, int parent);
   void take_inertia(std::size_t number);
+  void note_what_swings();
+  bool would_turn_too_far(double step);
   void add_axis_rows(const Axis& axis, ConstraintRows& rows, double step);
   int add_axis_row(const Axis& axis, ConstraintRows& rows);
   void add_stops(const Axis& axis, ConstraintRows& rows, double step);
@@ -67,6 +74,8 @@ class TreeModel {
   Tree tree_;
   std::vector<int> numbers_;         // in the tree, by link of the model
   std::vector<std::size_t> places_;  // the reverse
+  std::vector<int> swinging_;        // links of the tree that carry others, or turn about more than one axis
+  double most_turn_ = 0;             // rad in a substep, of these links
   std::vector<Axis> axes_;
   std::vector<TreeJoint> tree_joints_;
   std::vector<std::size_t> gearboxes_;

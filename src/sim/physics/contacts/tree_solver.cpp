@@ -36,7 +36,9 @@ void TreeSolver::choose(Substep& substep) {
     const int island = islands.of(i);
     if (!islands.is_by_trees(island)) continue;
     if (model.trees == nullptr && TreeModel::knows_joints_of(model)) model.trees = std::make_shared<TreeModel>(model);
-    if (model.trees == nullptr || !model.trees->knows_parts()) islands.set_by_trees(island, false);
+    if (model.trees == nullptr || !model.trees->knows_parts() || model.trees->turns_too_far(substep.duration)) {
+      islands.set_by_trees(island, false);
+    }
   }
 }
 

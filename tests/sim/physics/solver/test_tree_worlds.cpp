@@ -120,5 +120,47 @@ TEST(FloatingRobotByTrees, KeepsItsMomentumWhileItsMotorTurns) {
   expect_near(angular, {}, 1e-11);
 }
 
+TEST(RopeByTrees, GainsNoEnergyByAWhip) {
+  constexpr int kPieces = 40;
+  constexpr double kLength = 0.025;
+  constexpr double kMass = 1e-3;
+  const Vector3 inertia(6e-8, 6e-8, 1e-8);
+  ModelDescription rope;
+  for (int i = 0; i < kPieces; ++i) {
+    LinkDescription piece = link("p" + std::to_string(i));
+    piece.mass = kMass;
+    piece.inertia_diagonal = inertia;
+    piece.pose = Pose(Vector3(i * kLength, 0, 0), from_rpy(0, M_PI / 2, 0));
+    if (i == 0) {
+      rope = model("Rope", piece, at(0, 0, 5));
+      continue;
+    }
+    rope.links.push_back(piece);
+    rope.joints.push_back(joint("ball", {}, {0, 0, -kLength / 2}, "p" + std::to_string(i - 1), piece.name));
+    rope.joints.back().name = "j" + std::to_string(i);
+  }
+  SceneDescription described = scene({rope}, Vector3::Zero());
+  described.solver = Solver::kBubblesim;
+  World world(described, 0);
+  const auto energy = [&] {
+    double sum = 0;
+    for (int i = 0; i < kPieces; ++i) {
+      const ObjectId piece = world.tree().find("/Rope/p" + std::to_string(i));
+      const Twist velocity = world.velocity(piece);
+      const Vector3 spin = world.pose(piece).orientation.conjugate() * velocity.angular;
+      sum += (kMass * velocity.linear.squaredNorm() + spin.dot(inertia.cwiseProduct(spin))) / 2;
+    }
+    return sum;
+  };
+  world.wrenches().apply(world.tree().find("/Rope/p20"), {{0, 20, 5}, {}});
+  world.advance(kStep, kStep);
+  const double start = energy();
+  EXPECT_GT(start, 0.1);
+  for (int i = 0; i < 200; ++i) {
+    world.advance(kStep, kStep);
+    ASSERT_LT(energy(), 1.05 * start) << i;
+  }
+}
+
 }  // namespace
 }  // namespace bubblesim::test::test_tree_worlds
