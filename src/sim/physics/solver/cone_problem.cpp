@@ -131,6 +131,7 @@ ConeResult ConeSolver::solve(ConeProblem& problem) {
     scale_.segment(block.row, block.size).setConstant(1 / admittance);
   }
   const double enough = kSmall * kSmall * static_cast<double>(rows);
+  const double good = kGood * kGood * static_cast<double>(rows);
   double merit = evaluate(problem, problem.x);
   while (merit > enough && result.newton_steps < kNewtonSteps) {
     ++result.newton_steps;
@@ -152,6 +153,7 @@ ConeResult ConeSolver::solve(ConeProblem& problem) {
     }
     if (!(next < merit)) {
       problem.x = before_;
+      if (merit <= good) break;
       for (int i = 0; i < kSweepsAfterStall; ++i) sweep(problem);
       result.sweeps += kSweepsAfterStall;
       next = evaluate(problem, problem.x);
@@ -159,7 +161,6 @@ ConeResult ConeSolver::solve(ConeProblem& problem) {
     merit = next;
   }
   // Sweeps converge slowly, but where they end there is a solution.
-  const double good = kGood * kGood * static_cast<double>(rows);
   for (int i = 0; i < kLastSweeps && merit > good; ++i) {
     sweep(problem);
     ++result.sweeps;
