@@ -45,7 +45,7 @@ def boxes(count: int) -> list[tuple[float, float, float]]:
     return found
 
 
-def scene_of(box_count: int, robots: int = 1, more: str = "", solver: str = "ode") -> str:
+def scene_of(box_count: int, robots: int = 1, more: str = "", solver: str = "bubblesim") -> str:
     """Return a scene of boxes and tricycles side by side, in SDFormat."""
     models = "".join(
         f"""<model name="Box{i}"><static>true</static><pose>{x} {y} 0.2 0 0 {heading}</pose><link name="l">
@@ -66,7 +66,7 @@ def scene_of(box_count: int, robots: int = 1, more: str = "", solver: str = "ode
 class Ours:
     """Tricycles side by side in bubblesim."""
 
-    def __init__(self, box_count: int, robots: int = 1, solver: str = "ode") -> None:
+    def __init__(self, box_count: int, robots: int = 1, solver: str = "bubblesim") -> None:
         """Load the scene and set the commands for a circle."""
         with tempfile.NamedTemporaryFile("w", suffix=".sdf") as file:
             file.write(scene_of(box_count, robots, solver=solver))
@@ -207,8 +207,8 @@ def main() -> None:
     print(f"bubblesim {Path(bubblesim.__file__).parent}, MuJoCo {mujoco.__version__}, PyBullet 3.2.7")
     for count in (0, 200):
         candidates = {
-            "ODE": Ours(count),
-            "trees": Ours(count, solver="bubblesim"),
+            "ODE": Ours(count, solver="ode"),
+            "trees": Ours(count),
             "MuJoCo": MuJoCo(count),
             "PyBullet": PyBullet(count),
         }

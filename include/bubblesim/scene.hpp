@@ -380,7 +380,7 @@ enum class OnDivergence {
 /// Who solves the joints and contacts of islands with joints.
 enum class Solver {
   kOde,
-  kBubblesim  ///< trees in generalised coordinates: docs/adr/0050
+  kBubblesim  ///< trees in generalised coordinates (docs/adr/0050), and ODE what trees do not know
 };
 
 struct SceneDescription {
@@ -391,7 +391,7 @@ struct SceneDescription {
   double time_step = 0.05;       ///< s, of one simulation step
   double substep = 0.005;        ///< s, of one physics substep; divides time_step
   OnDivergence on_divergence = OnDivergence::kPause;
-  Solver solver = Solver::kOde;
+  Solver solver = Solver::kBubblesim;
   Environment environment;
   std::vector<ModelDescription> models;
   std::vector<FrameDescription> frames;  ///< of no model: they stay in the world

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from experiments.experiment import Experiment, run
-from experiments.ours import Ours, Trees
+from experiments.ours import Ode, Ours
 from experiments.registry import EXPERIMENTS
 from experiments.table import outcome_text
 from ros_support import REPOSITORY
@@ -17,7 +17,7 @@ from ros_support import REPOSITORY
 PROGRAM = REPOSITORY / "scripts" / "conformance"
 
 
-@pytest.mark.parametrize("engine", [Ours, Trees], ids=lambda engine: engine.name)
+@pytest.mark.parametrize("engine", [Ours, Ode], ids=lambda engine: engine.name)
 @pytest.mark.parametrize(
     "experiment", [pytest.param(e, id=e.name, marks=pytest.mark.long if e.long else ()) for e in EXPERIMENTS]
 )

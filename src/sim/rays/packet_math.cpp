@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "simd.hpp"
+#include "scene/simd.hpp"
 
 namespace bubblesim::rays {
 namespace {

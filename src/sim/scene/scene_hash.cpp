@@ -176,7 +176,7 @@ class DescriptionHash {
   void add(const SceneDescription& s) {
     (*this)(s.gravity, s.time_step, s.substep, s.on_divergence, s.environment, s.models, s.plugins, s.randomized);
     if (!s.frames.empty()) add(s.frames);
-    if (s.solver != Solver::kOde) (*this)(s.solver);
+    if (s.solver != Solver::kBubblesim) (*this)(s.solver);
   }
 
   Fnv1a hash_;

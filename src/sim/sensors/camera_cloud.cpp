@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bubblesim/sensor_kinds.hpp"
+#include "scene/simd.hpp"
 #include "sensors/worker_pool.hpp"
-#include "simd.hpp"
 
 namespace bubblesim {
 namespace {

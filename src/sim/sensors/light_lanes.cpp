@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "simd.hpp"
+#include "scene/simd.hpp"
 
 namespace bubblesim::lanes {
 namespace {

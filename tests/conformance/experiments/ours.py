@@ -112,7 +112,7 @@ class Ours:
     """A scene that bubblesim runs."""
 
     name = "bubblesim"
-    solver = "ode"
+    solver = "bubblesim"
 
     def __init__(self, scene: Scene) -> None:
         """Load the scene."""
@@ -189,8 +189,8 @@ class Ours:
             self.joints[joint].target_velocity = value
 
 
-class Trees(Ours):
-    """The same with the solver for trees in generalised coordinates."""
+class Ode(Ours):
+    """The same with ODE's solver for what has joints."""
 
-    name = "trees"
-    solver = "bubblesim"
+    name = "ODE"
+    solver = "ode"

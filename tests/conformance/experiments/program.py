@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 
 from .experiment import Experiment, Result, run
-from .ours import Ours, Trees
+from .ours import Ode, Ours
 from .registry import EXPERIMENTS
 from .table import markdown, row_text, to_json
 
@@ -56,7 +56,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for experiment in chosen:
             print(f"{experiment.name:20} {experiment.title}{' (long)' if experiment.long else ''}")
         return 0
-    engines = [Ours, Trees, *(peers() if options.peers else [])]
+    engines = [Ours, Ode, *(peers() if options.peers else [])]
     results: dict[str, list[Result]] = {}
     failed = []
     for experiment in chosen:

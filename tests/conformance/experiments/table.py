@@ -99,7 +99,7 @@ def markdown(
         "Tolerance",
         *(["Before"] if before else []),
         "bubblesim",
-        "trees",
+        "ODE",
         "MuJoCo",
     ]
     lines = ["| " + " | ".join([*head, "PyBullet"]) + " |", "|" + "---|" * (len(head) + 1)]
@@ -119,7 +119,7 @@ def markdown(
             cells.append(cell(same_case(old, "bubblesim", now.case)))
         others = [
             same_case(engines, name, now.case) or same_case(old, name, now.case)
-            for name in ("trees", "MuJoCo", "PyBullet")
+            for name in ("ODE", "MuJoCo", "PyBullet")
         ]
         cells += [cell(now), *map(cell, others)]
         lines.append("| " + " | ".join(cells) + " |")

@@ -111,9 +111,11 @@ bool IslandSolvers::step_by_islands(Substep& substep, bool iterate_all) {
   return !iterate_all;
 }
 
-void IslandSolvers::solve(Substep& substep) {
-  if (substep.solver == Solver::kOde) return solve_rest(substep);
-  tree_solver_.solve(substep);
+void IslandSolvers::solve_trees(Substep& substep) {
+  if (substep.solver == Solver::kBubblesim) tree_solver_.solve(substep);
+}
+
+void IslandSolvers::solve_rest(Substep& substep) {
   by_trees_.clear();
   bool is_rest = false;
   for (std::size_t i = 0; i < substep.moving.size(); ++i) {
@@ -127,12 +129,11 @@ void IslandSolvers::solve(Substep& substep) {
   }
   if (!is_rest) return;
   disable(by_trees_);
-  solve_rest(substep);
+  solve_without_trees(substep);
   enable(by_trees_);
 }
 
-/// The islands that ODE and the contact solver solve.
-void IslandSolvers::solve_rest(Substep& substep) {
+void IslandSolvers::solve_without_trees(Substep& substep) {
   solve_free_contacts(substep);
   const bool is_exact = !substep.contacts.islands.may_be_beyond_limit();
   if ((is_exact && step_exactly(substep)) || step_by_islands(substep, is_exact)) {

@@ -14,8 +14,10 @@ namespace bubblesim {
 /// Its vectors are working memory.
 class IslandSolvers {
  public:
-  /// Solves the contacts and joints of all islands, and moves the bodies.
-  void solve(Substep& substep);
+  /// Solves the islands that trees solve, and moves their bodies.
+  void solve_trees(Substep& substep);
+  /// Likewise the others, with the contacts that are joints of ODE.
+  void solve_rest(Substep& substep);
 
  private:
   /// A pair of shapes in an island without joints.
@@ -25,7 +27,7 @@ class IslandSolvers {
     const RememberedPair* remembered = nullptr;  // null when the shapes did not touch before
   };
 
-  void solve_rest(Substep& substep);
+  void solve_without_trees(Substep& substep);
   void solve_free_contacts(Substep& substep);
   bool step_exactly(Substep& substep);
   bool step_by_islands(Substep& substep, bool iterate_all);

@@ -30,7 +30,7 @@ struct Substep {
   const Spaces& spaces;
   OdeWorld& ode;
   Contacts& contacts;
-  Solver solver = Solver::kOde;  // of islands with joints
+  Solver solver = Solver::kBubblesim;  // of islands with joints
 };
 
 }  // namespace bubblesim

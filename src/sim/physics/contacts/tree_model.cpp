@@ -9,14 +9,13 @@
 #include "physics/ode/body_state.hpp"
 #include "physics/ode/constraint_defaults.hpp"
 #include "physics/ode/ode_math.hpp"
-#include "physics/solver/turns.hpp"
 
 namespace bubblesim {
 namespace {
 
 constexpr double kMostTurn = 0.5;        // rad in a substep, of a link that swings
 constexpr double kMostTurnInSeries = 3;  // rad in a substep, of all links in series if they turned as fast
-constexpr double kReachOfStop = 1000;  // rad/s^2 or m/s^2, with which an axis may reach a stop in a substep
+constexpr double kReachOfStop = 1000;    // rad/s^2 or m/s^2, with which an axis may reach a stop in a substep
 
 TreeMotion motion_of(const std::string& type) {
   if (type == "prismatic") return TreeMotion::kSlides;
@@ -191,14 +190,12 @@ bool TreeModel::turns_too_far(double step) const {
   });
 }
 
-/// Likewise at the rates that were found.
 bool TreeModel::would_turn_too_far(double step) {
   if (tree_.rates().lpNorm<1>() * step < most_turn_) return false;
   tree_.set_velocities(tree_.rates());
   return std::any_of(swinging_.begin(), swinging_.end(),
                      [&](int link) { return tree_.velocity(link).angular.norm() * step > most_turn_; });
 }
-
 
 void TreeModel::begin(const Vector3& gravity, double step) {
   const std::size_t count = places_.size();
@@ -405,22 +402,14 @@ void TreeModel::report_reactions() {
   }
 }
 
-/// Links that would turn too far go straight on, with the energy that they have; joints open as they do with ODE.
 void TreeModel::end(const ConstraintRows& rows, double step) {
   for (const MotorRow& motor : motors_) motor.meter->add(rows.impulse(motor.row));
-  const bool is_moved = !would_turn_too_far(step);
-  if (is_moved) {
-    move(rows, step);
-    report_reactions();
-  }
+  move(rows, step);
+  report_reactions();
   for (std::size_t i = 0; i < places_.size(); ++i) {
     dBodyID body = model_.links[places_[i]].body.get();
+    const Pose pose = tree_.pose(static_cast<int>(i));
     const Twist velocity = tree_.velocity(static_cast<int>(i));
-    Pose pose = tree_.pose(static_cast<int>(i));
-    if (!is_moved) {
-      pose.position += velocity.linear * step;
-      pose.orientation = (turn_by(velocity.angular * step) * pose.orientation).normalized();
-    }
     set_body_pose(body, pose);
     dBodySetLinearVel(body, velocity.linear.x(), velocity.linear.y(), velocity.linear.z());
     dBodySetAngularVel(body, velocity.angular.x(), velocity.angular.y(), velocity.angular.z());

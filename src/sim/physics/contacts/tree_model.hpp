@@ -22,10 +22,11 @@ class TreeModel {
   /// Whether the present parts of the model are known: not planar motors and sensors in joints that close a loop.
   bool knows_parts() const;
 
-  /// Whether a link turns so far in a substep that the forces of its rotation, at the rates before and after, do not
-  /// tell what they are in between: such rates would grow. Wheels and other links about whose axis all else turns may
-  /// turn as fast as they like.
+  /// Whether a link turns so far in a substep that the forces of its rotation, which are those at the mean of the rates
+  /// before and after, would make energy. Wheels, and other links that turn about one axis and carry nothing, never do.
   bool turns_too_far(double step) const;
+  /// Likewise at the rates that ConstraintRows::solve() has found.
+  bool would_turn_too_far(double step);
 
   TreeBody body(const Link& link);
 
@@ -56,7 +57,6 @@ class TreeModel {
   void add_link(std::size_t joint, int parent);
   void take_inertia(std::size_t number);
   void note_what_swings();
-  bool would_turn_too_far(double step);
   void add_axis_rows(const Axis& axis, ConstraintRows& rows, double step);
   int add_axis_row(const Axis& axis, ConstraintRows& rows);
   void add_stops(const Axis& axis, ConstraintRows& rows, double step);

@@ -90,6 +90,10 @@ void TreeSolver::solve_island(Substep& substep) {
     add_pair(pairs_[next_pair_], substep);
   }
   rows_.solve();
+  const bool is_refused = std::any_of(models_.begin() + static_cast<std::ptrdiff_t>(first),
+                                      models_.begin() + static_cast<std::ptrdiff_t>(next_model_),
+                                      [&](const IslandModel& each) { return each.model->would_turn_too_far(step); });
+  if (is_refused) return substep.contacts.islands.set_by_trees(island, false);
   for (const PointRows& at : points_) {
     const Vector3 n = to_vector(at.point->contact.geom.normal);
     at.point->force = (n * rows_.impulse(at.normal) + at.tangent1 * rows_.impulse(at.normal + 1) +

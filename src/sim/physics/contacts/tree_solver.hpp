@@ -15,7 +15,7 @@ class TreeSolver {
  public:
   /// Marks the islands that solve() will solve: those with joints whose models trees know.
   static void choose(Substep& substep);
-  /// Solves these islands and moves their bodies.
+  /// Solves these islands and moves their bodies. Those whose models would turn too far are marked for ODE, unchanged.
   void solve(Substep& substep);
 
  private:

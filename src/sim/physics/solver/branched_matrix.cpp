@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "simd.hpp"
+#include "scene/simd.hpp"
 
 namespace bubblesim {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/solver/cholesky.hpp"
 
-#include "simd.hpp"
+#include "scene/simd.hpp"
 
 namespace bubblesim {
 

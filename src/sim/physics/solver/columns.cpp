@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/solver/columns.hpp"
 
-#include "simd.hpp"
+#include "scene/simd.hpp"
 
 namespace bubblesim {
 

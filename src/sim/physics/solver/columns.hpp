@@ -8,7 +8,7 @@
 namespace bubblesim {
 
 /// Four numbers side by side in memory. GCC and clang compute with all of them at once, with two or one instruction:
-/// for functions that are compiled for several instruction sets (simd.hpp).
+/// for functions that are compiled for several instruction sets (scene/simd.hpp).
 using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
 
 inline Four& four_at(double* numbers) { return *reinterpret_cast<Four*>(numbers); }

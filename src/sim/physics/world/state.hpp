@@ -82,7 +82,7 @@ struct WorldState {
   std::uint64_t revision = 0;                                         // counts additions and removals of models
   bool has_scene_models = true;
 
-  Solver solver = Solver::kOde;
+  Solver solver = Solver::kBubblesim;
   OdeWorld ode;
   Spaces spaces;
   std::vector<std::unique_ptr<PlacedModel>> models;  // in the order in which they were added

@@ -119,12 +119,13 @@ void simulate(WorldState& state, const Wrenches& wrenches, double step) {
     wake_commanded(moving);
     find_contacts(substep);
     drive_joints(moving, step);
-    join_contacts(substep);
     begin_meters(moving);
-    correct_joints(moving, state.ode.id(), step);
     note_motion(moving);
+    correct_joints(moving, state.ode.id(), step);
+    state.solvers.solve_trees(substep);
+    join_contacts(substep);
     begin_rotations(substep);
-    state.solvers.solve(substep);
+    state.solvers.solve_rest(substep);
     end_rotations(substep);
     stop_at_impacts(substep);
     gather_contacts(state.contacts);

@@ -45,9 +45,9 @@ void read_policy(const SdfElement& world, SceneDescription& scene, LoadContext& 
 
 void read_solver(const SdfElement& physics, SceneDescription& scene, LoadContext& context) {
   const auto solver = own_text(physics, kSolver);
-  if (!solver || *solver == "ode") return;
-  if (*solver == "bubblesim") {
-    scene.solver = Solver::kBubblesim;
+  if (!solver || *solver == "bubblesim") return;
+  if (*solver == "ode") {
+    scene.solver = Solver::kOde;
     return;
   }
   context.report(physics.source(kSolver), "",
