@@ -17,8 +17,8 @@ from matplotlib import pyplot as plt
 from . import friction, rotation, vehicles
 from .mechanics import runge_kutta, spin_in_body
 
-COLOURS = {"theory": "#222222", "bubblesim": "#1f77b4", "MuJoCo": "#d62728", "PyBullet": "#2ca02c"}
-MARKS = {"bubblesim": "o", "MuJoCo": "s", "PyBullet": "^"}
+COLOURS = {"theory": "#222222", "bubblesim": "#1f77b4", "ODE": "#9467bd", "MuJoCo": "#d62728", "PyBullet": "#2ca02c"}
+MARKS = {"bubblesim": "o", "ODE": "x", "MuJoCo": "s", "PyBullet": "^"}
 
 
 def inclines(axes: Any, engines: Sequence[Any]) -> None:
