@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Times the publishing of messages by a script, on ROS 1 and on ROS 2, by rclpy, and by Fast DDS alone.
 
-Each has one subscriber. rclpy and Fast DDS are timed after the script, in the same order of messages; Fast DDS gets
-ready bytes.
+Each has one subscriber. The script publishes on one side in a step and on the other in the next one: roscpp sends after
+the call, in a thread of its own. rclpy and Fast DDS are timed after the script, in the same order of messages; Fast DDS
+gets ready bytes. A second table compares the encoders of both sides, without a publisher.
 
 Needs a build with ROS 2 and the tests' environment with rclpy (scripts/setup --with ros2 --with tests):
 
@@ -20,6 +21,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -54,16 +56,18 @@ def sysCall_init():
     self.times = {{}}
     self.one = {{kind: simROS.advertise('/one/' + kind.split('/')[1], kind, 10) for kind in MESSAGES}}
     self.two = {{kind: simROS2.createPublisher('/two/' + kind.split('/')[1], kind, 10) for kind in MESSAGES}}
+    self.step = 0
 
 def sysCall_sensing():
     if not all(map(simROS.wantsMessages, self.one.values())) or not all(map(simROS2.wantsMessages, self.two.values())):
         return
+    self.step += 1
+    name, module, publishers = (('ROS 1', simROS, self.one), ('ROS 2', simROS2, self.two))[self.step % 2]
     for kind, message in MESSAGES.items():
-        for name, module, publishers in (('ROS 1', simROS, self.one), ('ROS 2', simROS2, self.two)):
-            begin = time.perf_counter()
-            module.publish(publishers[kind], message)
-            self.times.setdefault(name + ' ' + kind, []).append(time.perf_counter() - begin)
-    if len(self.times['ROS 1 std_msgs/Float32']) == {rounds}:
+        begin = time.perf_counter()
+        module.publish(publishers[kind], message)
+        self.times.setdefault(name + ' ' + kind, []).append(time.perf_counter() - begin)
+    if self.step == {rounds} * 2:
         medians = {{name: 1e6 * float(np.median(each)) for name, each in self.times.items()}}
         print('times', json.dumps(medians), flush=True)
         sim.stopSimulation()
@@ -139,6 +143,26 @@ def ready_bytes(folder: Path) -> list[str]:
     return arguments
 
 
+def encoding_time(encode: Callable[[str, object], bytes], kind: str, message: object) -> float:
+    """Return the microseconds of a call."""
+    calls = 2000 if len(encode(kind, message)) < 10000 else 50
+    begin = time.perf_counter()
+    for _ in range(calls):
+        encode(kind, message)
+    return 1e6 * (time.perf_counter() - begin) / calls
+
+
+def print_encoders() -> None:
+    """Print a table of medians of the encoders, which run alternately."""
+    print(f"{'dict to bytes, us':24}{'ROS 1':>10}{'ROS 2':>10}{'ratio':>30}")
+    for kind, text in MESSAGES.items():
+        message = eval(text, {"np": np})
+        sides = (_core.messages.encode, _core.messages.encode_ros2)
+        times = [[encoding_time(encode, kind, message) for encode in sides] for _ in range(21)]
+        one, two = np.median(times, axis=0)
+        print(f"{kind:24}{one:10.2f}{two:10.2f}{two / one:30.2f}")
+
+
 def main() -> None:
     """Print a table of medians."""
     env = {**os.environ, "ROS_DOMAIN_ID": DOMAIN, "ROS_HOSTNAME": "localhost"}
@@ -170,6 +194,7 @@ def main() -> None:
     for kind in MESSAGES:
         one, two, dds = ours[f"ROS 1 {kind}"], ours[f"ROS 2 {kind}"], alone_times[kind]
         print(f"{kind:24}{one:10.1f}{two:10.1f}{rclpys[kind]:10.1f}{dds:10.1f}{two / dds:8.2f}")
+    print_encoders()
 
 
 if __name__ == "__main__":

@@ -9,7 +9,6 @@ import numpy.typing as npt
 import pytest
 
 import bubblesim
-from ros_support import REPOSITORY
 
 
 def write_world(file: Path, solver: str, models: str, step: float = 0.005) -> Path:
@@ -84,14 +83,9 @@ def test_random_trees_move_as_with_ode(tmp_path: Path, seed: int) -> None:
     assert largest[1] < 0.3 * largest[0]
 
 
-def driving(folder: Path) -> bubblesim.Simulation:
+def driving() -> bubblesim.Simulation:
     """Return a tricycle that drives a curve."""
-    text = (REPOSITORY / "scenes" / "tricycle.sdf").read_text()
-    (folder / "tricycle.py").touch()  # the scene's script
-    assert "</physics>" in text
-    file = folder / "tricycle.sdf"
-    file.write_text(text.replace("</physics>", "<bubblesim:solver>bubblesim</bubblesim:solver></physics>"))
-    simulation = bubblesim.Simulation(str(file), seed=3)
+    simulation = bubblesim.Simulation("tricycle", seed=3)
     drive(simulation)
     return simulation
 
@@ -102,8 +96,8 @@ def drive(simulation: bubblesim.Simulation) -> None:
     simulation.step(15)
 
 
-def test_a_saved_state_continues_bit_for_bit(tmp_path: Path) -> None:
-    simulation = driving(tmp_path)
+def test_a_saved_state_continues_bit_for_bit() -> None:
+    simulation = driving()
     saved, scene = simulation.save(), simulation.scene_file
     simulation.step(20)
     other = bubblesim.Simulation(str(scene), seed=99)
@@ -112,8 +106,8 @@ def test_a_saved_state_continues_bit_for_bit(tmp_path: Path) -> None:
     assert other.state_hash() == simulation.state_hash()
 
 
-def test_a_reset_repeats_the_run_bit_for_bit(tmp_path: Path) -> None:
-    simulation = driving(tmp_path)
+def test_a_reset_repeats_the_run_bit_for_bit() -> None:
+    simulation = driving()
     first = simulation.state_hash()
     simulation.step(20)
     simulation.reset()
@@ -121,14 +115,14 @@ def test_a_reset_repeats_the_run_bit_for_bit(tmp_path: Path) -> None:
     assert simulation.state_hash() == first
 
 
-def test_a_tricycle_turns_about_the_centre_of_its_wheels(tmp_path: Path) -> None:
+def test_a_tricycle_turns_about_the_centre_of_its_wheels() -> None:
     """Without slip its rear axle has the radius L / tan(a) and the yaw rate v sin(a) / L.
 
     The wheelbase L is 1 m, the steering angle a, the speed of the front wheel v. Rows are those of the pose before a
     substep: the direction of motion is half a substep behind, a turn of e = w h / 2 = 6.6e-4 rad, which adds e c to the
     radius, 2.7e-4 m for the centre of mass c = 0.4 m before the axle.
     """
-    simulation = driving(tmp_path)
+    simulation = driving()
     simulation.step(25)
     tricycle = simulation.object("/Tricycle")
     angle, speed = simulation.object("/Steering").joint_position, 3.0 * 0.3

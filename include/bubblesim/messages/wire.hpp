@@ -74,6 +74,7 @@ class WireBuffer {
   void grow(std::size_t extra);
   void pad(std::size_t boundary) {
     const std::size_t bytes = (kPrefix - size_) & (boundary - 1);
+    if (bytes == 0) return;
     for (std::uint8_t* place = extend(bytes); place != storage_.get() + size_; ++place) *place = 0;
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Worlds that select bubblesim's solver.
+// Models with joints in worlds, which trees solve by default.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,10 +15,8 @@ namespace {
 constexpr double kGravity = 9.81;
 constexpr double kStep = 0.005;
 
-World by_trees(std::vector<ModelDescription> models) {
-  SceneDescription described = scene(std::move(models), {0, 0, -kGravity});
-  described.solver = Solver::kBubblesim;
-  return World(described, 0);
+World by_trees(std::vector<ModelDescription> models, const Vector3& gravity = {0, 0, -kGravity}) {
+  return World(scene(std::move(models), gravity), 0);
 }
 
 /// A rod of 1 m and 1 kg that hangs from the world and leans by an angle about y.
@@ -97,9 +95,7 @@ TEST(FloatingRobotByTrees, KeepsItsMomentumWhileItsMotorTurns) {
   robot.links.push_back(arm);
   robot.joints.push_back(
       joint("continuous", {axis(Vector3(0, 0.6, 0.8), MotorMode::kVelocity)}, {-0.4, 0, 0}, "base", "arm"));
-  SceneDescription described = scene({robot}, Vector3::Zero());
-  described.solver = Solver::kBubblesim;
-  World world(described, 0);
+  World world = by_trees({robot}, Vector3::Zero());
   world.joints().set_target_velocity(world.tree().find("/joint"), 8);
   world.advance(5, kStep);
   Vector3 linear;
@@ -139,9 +135,7 @@ TEST(RopeByTrees, GainsNoEnergyByAWhip) {
     rope.joints.push_back(joint("ball", {}, {0, 0, -kLength / 2}, "p" + std::to_string(i - 1), piece.name));
     rope.joints.back().name = "j" + std::to_string(i);
   }
-  SceneDescription described = scene({rope}, Vector3::Zero());
-  described.solver = Solver::kBubblesim;
-  World world(described, 0);
+  World world = by_trees({rope}, Vector3::Zero());
   const auto energy = [&] {
     double sum = 0;
     for (int i = 0; i < kPieces; ++i) {
