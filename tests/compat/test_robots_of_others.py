@@ -163,7 +163,9 @@ def test_a_pendulum_is_held_by_its_position_controllers(tmp_path: Path) -> None:
             assert "ranges" in topic(core, "/rrbot/laser/scan")
             command = "/rrbot/joint1_position_controller/command"
             with core.publishing(command, "std_msgs/Float64", "data: 0.8"):
-                wait_until(lambda: abs(rrbot_error(core)) < 0.15, "the position", 2 * DEADLINE)
+                # The gain of 100 N m/rad bears the weight, at most 15.2 N m for what the second joint may hold, its
+                # position when its controller started, with an error of up to 0.152 rad.
+                wait_until(lambda: abs(rrbot_error(core)) < 0.16, "the position", 2 * DEADLINE)
 
 
 def rrbot_error(core: RosCore) -> float:
