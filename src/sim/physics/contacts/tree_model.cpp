@@ -110,9 +110,8 @@ TreeModel::TreeModel(const PlacedModel& model) : model_(model), numbers_(model.l
   for (std::size_t i = 0; i < places_.size(); ++i) take_inertia(i);
   note_what_swings();
   keeps_momenta_ =
-      std::any_of(places_.begin(), places_.end(),
-                  [&](std::size_t place) { return tree_.free_root(numbers_[place]) >= 0; }) ||
       std::any_of(model.joints.begin(), model.joints.end(), [](const auto& joint) { return joint.meter != nullptr; });
+  for (int i = 0; i < tree_.links(); ++i) keeps_momenta_ = keeps_momenta_ || tree_.free_root(i) >= 0;
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     if (used[i]) continue;
     loops_.push_back(i);

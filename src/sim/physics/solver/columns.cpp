@@ -6,7 +6,7 @@
 namespace bubblesim {
 
 BUBBLESIM_SIMD void Columns::set_weighted_square(const Columns& a, const double* weights) {
-  set_zero(a.rows(), a.rows());
+  resize(a.rows(), a.rows());
   // By squares of four rows and columns, whose sums stay in registers.
   for (std::size_t c = 0; c < a.length_; c += 4) {
     for (std::size_t r = c; r < a.length_; r += 4) {

@@ -36,10 +36,8 @@ class Columns {
   static std::size_t in_groups(std::size_t count) { return (count + 3) / 4 * 4; }
 
   void set_zero(int rows, int columns) {
-    rows_ = rows;
-    columns_ = columns;
-    length_ = in_groups(static_cast<std::size_t>(rows));
-    values_.assign(length_ * static_cast<std::size_t>(columns), 0);
+    resize(rows, columns);
+    values_.assign(values_.size(), 0);
   }
   int rows() const { return rows_; }
   int columns() const { return columns_; }
@@ -51,6 +49,14 @@ class Columns {
   void set_weighted_square(const Columns& a, const double* weights);
 
  private:
+  /// The values are anything.
+  void resize(int rows, int columns) {
+    rows_ = rows;
+    columns_ = columns;
+    length_ = in_groups(static_cast<std::size_t>(rows));
+    values_.resize(length_ * static_cast<std::size_t>(columns));
+  }
+
   int rows_ = 0;
   int columns_ = 0;
   std::size_t length_ = 0;
