@@ -6,8 +6,6 @@ node is missing.
 """
 
 import base64
-import fcntl
-import itertools
 import os
 import signal
 from collections.abc import Callable, Iterator, Sequence
@@ -16,6 +14,7 @@ from typing import Any
 
 import pytest
 
+from bubblesim.running.isolation import reserve_domain
 from node_support import clean_environment
 from peer_process import PeerProcess
 from ros_support import DEADLINE, REPOSITORY, wait_until
@@ -32,22 +31,14 @@ class Domain:
     """A ROS_DOMAIN_ID that no other test uses meanwhile."""
 
     def __init__(self) -> None:
-        for number in itertools.islice(itertools.cycle(range(1, 102)), os.getpid() % 101, None):
-            self._lock = os.open(f"/tmp/bubblesim_tests_{os.getuid()}_domain_{number}", os.O_CREAT | os.O_RDWR)
-            try:
-                fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                os.close(self._lock)
-                continue
-            self.number = number
-            return
+        self.number, self._holder = reserve_domain()
 
     def env(self, **changes: str) -> dict[str, str]:
         """Return the environment for a process in this domain."""
         return clean_environment(ROS_DOMAIN_ID=str(self.number), PYTHONUNBUFFERED="1", **changes)
 
     def release(self) -> None:
-        os.close(self._lock)
+        self._holder.close()
 
 
 @pytest.fixture

@@ -31,7 +31,8 @@ def add_parser(commands: Any) -> None:
         "test",
         help="test a controller in the simulator",
         description="Runs tests with pytest and fixtures that run the simulator in lockstep with a controller: `sim`, "
-        "`controller` and `ros_master`. All options of pytest are accepted, such as -k NAME, -x and "
+        "`controller` and `ros_master`; with ROS 2 `ros2_sim`, `ros2_controller` and `ros2_domain`. "
+        "All options of pytest are accepted, such as -k NAME, -x and "
         "--junitxml=FILE. --keep-failed=FOLDER keeps the bags and logs of tests that fail, and a plot of the path.",
         epilog=_EXAMPLE,
         formatter_class=argparse.RawDescriptionHelpFormatter,

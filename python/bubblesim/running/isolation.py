@@ -12,6 +12,7 @@ from bubblesim.running.processes import RunError
 
 _FIRST_PORT = 11400
 _DOMAINS = 101  # of ROS 2: above, its ports are those of outgoing connections on Linux
+_ALL_IN_USE = f"the ports {_FIRST_PORT + 1} to {_FIRST_PORT + _DOMAINS} are all in use: `bubblesim ps` lists runs"
 
 
 def isolate(environment: MutableMapping[str, str] = os.environ) -> str:
@@ -22,13 +23,9 @@ def isolate(environment: MutableMapping[str, str] = os.environ) -> str:
 
     :raises RunError: if no number is free.
     """
-    numbers = list(range(1, _DOMAINS + 1))
-    random.shuffle(numbers)  # many users start at once
-    number = next((number for number in numbers if _is_free(_FIRST_PORT + number)), None)
+    number = next((number for number in _numbers() if _is_free(_FIRST_PORT + number)), None)
     if number is None:
-        raise RunError(
-            f"the ports {_FIRST_PORT + 1} to {_FIRST_PORT + _DOMAINS} are all in use: `bubblesim ps` lists runs"
-        )
+        raise RunError(_ALL_IN_USE)
     values = {
         "ROS_MASTER_URI": f"http://localhost:{_FIRST_PORT + number}",
         "ROS_HOSTNAME": "localhost",
@@ -36,6 +33,28 @@ def isolate(environment: MutableMapping[str, str] = os.environ) -> str:
     }
     environment.update(values)
     return "export " + " ".join(f"{name}={value}" for name, value in values.items())
+
+
+def reserve_domain() -> tuple[int, socket.socket]:
+    """Return a ROS_DOMAIN_ID that nobody else gets, here or from ``isolate``, until the socket is closed.
+
+    :raises RunError: if no number is free.
+    """
+    for number in _numbers():
+        holder = socket.socket()
+        try:
+            holder.bind(("127.0.0.1", _FIRST_PORT + number))  # without SO_REUSEADDR: others cannot bind the port, too
+        except OSError:
+            holder.close()
+            continue
+        return number, holder
+    raise RunError(_ALL_IN_USE)
+
+
+def _numbers() -> list[int]:
+    numbers = list(range(1, _DOMAINS + 1))
+    random.shuffle(numbers)  # many users start at once
+    return numbers
 
 
 def _is_free(port: int) -> bool:

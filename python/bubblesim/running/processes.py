@@ -6,6 +6,7 @@ from __future__ import annotations
 import contextlib
 import signal
 import subprocess
+from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
 
@@ -23,8 +24,19 @@ class RunError(Exception):
 class Program:
     """A running program in its own process group; its output goes to a file or to ours."""
 
-    def __init__(self, name: str, command: list[str], log: Path | None, *, serves_others: bool = False) -> None:
-        """Start it; `name` is used in messages. Raise RunError if it cannot be started."""
+    def __init__(
+        self,
+        name: str,
+        command: list[str],
+        log: Path | None,
+        *,
+        serves_others: bool = False,
+        environment: Mapping[str, str] | None = None,
+    ) -> None:
+        """Start it, in our environment or another one; `name` is used in messages.
+
+        :raises RunError: if it cannot be started.
+        """
         self.name = name
         self.serves_others = serves_others
         self._log = log
@@ -37,6 +49,7 @@ class Program:
                     stdin=subprocess.DEVNULL,
                     stdout=output,
                     stderr=subprocess.STDOUT if output else None,
+                    env=environment,
                     start_new_session=True,
                 )
             except OSError as error:
@@ -91,14 +104,22 @@ class Programs:
         self._log_folder = log_folder
         self.running: list[Program] = []
 
-    def start(self, name: str, *command: str, shown: bool = False, serves_others: bool = False) -> Program:
+    def start(
+        self,
+        name: str,
+        *command: str,
+        shown: bool = False,
+        serves_others: bool = False,
+        environment: Mapping[str, str] | None = None,
+    ) -> Program:
         """Start a program; from now on `check` watches it.
 
         :param shown: write its output to ours.
         :param serves_others: end it after the others, for a ROS master.
+        :param environment: of the program, if not ours.
         """
         log = None if shown else self._log_folder / f"{name.replace(' ', '_')}.log"
-        program = Program(name, list(command), log, serves_others=serves_others)
+        program = Program(name, list(command), log, serves_others=serves_others, environment=environment)
         self.running.append(program)
         return program
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pytest fixtures: `ros_master`, `controller` and `sim`.
+"""Pytest fixtures: `ros_master`, `controller` and `sim`; for ROS 2 `ros2_domain`, `ros2_controller` and `ros2_sim`.
 
 ``bubblesim test`` loads them; for plain pytest, add to conftest.py: pytest_plugins = ["bubblesim.testing.plugin"].
 With ``--keep-failed FOLDER``, what a failed test leaves is kept for those who did not see it run, such as an artifact
@@ -19,9 +19,12 @@ from typing import Any
 
 import pytest
 
+from bubblesim.running.isolation import reserve_domain
 from bubblesim.running.processes import Program, Programs
 from bubblesim.testing.kept_files import keep
 from bubblesim.testing.master import Master, start_master
+from bubblesim.testing.ros2_domain import Ros2Domain, without_ros1
+from bubblesim.testing.ros2_simulator import Ros2Simulator
 from bubblesim.testing.simulator import Simulator
 
 
@@ -39,6 +42,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 StartController = Callable[..., Program]
 StartSimulator = Callable[..., Simulator]
+StartRos2Simulator = Callable[..., Ros2Simulator]
 
 
 _FAILED = pytest.StashKey[bool]()
@@ -87,10 +91,11 @@ def ros_master(_programs: Programs, tmp_path: Path, monkeypatch: pytest.MonkeyPa
 def controller(ros_master: Master, _programs: Programs) -> StartController:
     """Return a function that starts a controller: ``controller("rosrun my_package my_node.py _gain:=2")``."""
 
-    def start(command: str) -> Program:
-        return _programs.start(f"controller {shlex.split(command)[-1].rpartition('/')[2]}", *shlex.split(command))
+    return lambda command: _programs.start(_name_of(command), *shlex.split(command))
 
-    return start
+
+def _name_of(controller: str) -> str:
+    return f"controller {shlex.split(controller)[-1].rpartition('/')[2]}"
 
 
 @pytest.fixture
@@ -101,5 +106,37 @@ def sim(ros_master: Master, _programs: Programs, tmp_path: Path) -> StartSimulat
     def start(scene: str, lockstep: tuple[str, ...] = (), seed: int = 0, options: tuple[str, ...] = ()) -> Simulator:
         bag = tmp_path / f"run{next(numbers)}.bag"
         return Simulator(ros_master, _programs, bag, scene, lockstep, seed, options)
+
+    return start
+
+
+@pytest.fixture
+def ros2_domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[Ros2Domain]:
+    """Take a ROS 2 domain for the test; this process and its child processes use it."""
+    number, holder = reserve_domain()
+    with holder:
+        domain = Ros2Domain(number)
+        for name, value in domain.environment.items():
+            monkeypatch.setenv(name, value)
+        yield domain
+
+
+@pytest.fixture
+def ros2_controller(ros2_domain: Ros2Domain, _programs: Programs) -> StartController:
+    """Return a function that starts a node of ROS 2: ``ros2_controller("ros2 run my_package my_node")``."""
+    environment = without_ros1({**os.environ, **ros2_domain.environment})
+    return lambda command: _programs.start(_name_of(command), *shlex.split(command), environment=environment)
+
+
+@pytest.fixture
+def ros2_sim(ros2_domain: Ros2Domain, _programs: Programs, tmp_path: Path) -> StartRos2Simulator:
+    """Return a function that starts a Ros2Simulator: ``ros2_sim("tricycle", lockstep=["/speed", "/steering"])``."""
+    numbers = itertools.count(1)
+
+    def start(
+        scene: str, lockstep: tuple[str, ...] = (), seed: int = 0, options: tuple[str, ...] = ()
+    ) -> Ros2Simulator:
+        bag = tmp_path / f"run{next(numbers)}.mcap"
+        return Ros2Simulator(_programs, bag, scene, lockstep, seed, options)
 
     return start
