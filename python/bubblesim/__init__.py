@@ -123,7 +123,12 @@ def __getattr__(name: str) -> Any:
                 raise ImportError(_why_not_loaded()) from None
             raise
     if name not in __all__ and not name.endswith("Reading"):  # kinds of sensors that were added have such classes
-        raise AttributeError(f"module 'bubblesim' has no attribute {name!r}")
+        import difflib
+
+        from bubblesim.messages.names import did_you_mean, unknown_attribute
+
+        near = did_you_mean([f"bubblesim.{known}" for known in difflib.get_close_matches(name, __all__, n=1)])
+        raise unknown_attribute(f"module 'bubblesim' has no attribute {name!r}{near}")
     if name == "connect":
         from bubblesim.remote.connection import connect
 

@@ -263,3 +263,8 @@ def test_it_needs_no_ros() -> None:
         "print([m for m in sys.modules if m.startswith('ros')], [l for l in maps.split() if '/libros' in l])"
     )
     assert run_python(code) == "[] []\n"
+
+
+def test_a_name_with_a_typo_is_answered_with_the_nearest_one() -> None:
+    with pytest.raises(AttributeError, match=r"has no attribute 'Simulaton'; did you mean bubblesim\.Simulation\?"):
+        bubblesim.Simulaton  # type: ignore[attr-defined]  # noqa: B018

@@ -86,3 +86,17 @@ def test_a_command_with_a_typo_is_answered_with_the_nearest_one() -> None:
     run = bubblesim("rnu", "ball")
     assert run.returncode == 2
     assert "there is no command 'rnu'; did you mean run?" in run.stderr
+
+
+@pytest.mark.parametrize(
+    ("word", "answer"),
+    [
+        ("--verison", "there is no option '--verison'; did you mean --version?"),
+        ("--scene", "there is no option '--scene'; options follow a command: bubblesim COMMAND [option ...]"),
+        ("help", "there is no command 'help'; did you mean `bubblesim --help`?"),
+        ("add_message", "there is no command 'add_message'; did you mean `rosrun bubblesim add_message`?"),
+    ],
+)
+def test_words_that_are_no_commands_lead_to_what_was_meant(word: str, answer: str) -> None:
+    run = bubblesim(word)
+    assert (run.returncode, run.stderr.splitlines()[-1]) == (2, f"bubblesim: error: {answer}")

@@ -35,6 +35,20 @@ def test_options_before_the_scene_are_refused() -> None:
     assert "the scene comes first" in run.stderr
 
 
+@pytest.mark.parametrize(
+    ("arguments", "answer"),
+    [
+        (["tricycle.launch"], "tricycle.launch is a launch file, not a scene: roslaunch bubblesim tricycle.launch"),
+        (["."], ". is a folder, not a scene: give the .sdf file in it, or a name of `bubblesim scenes`"),
+        (["ball", "--plot", "path.gif"], "--plot: path.gif does not end with .png or .pdf or .svg, the formats of"),
+        (["ball", "--plot", "/nowhere/path.png"], "--plot: there is no folder /nowhere: make it first"),
+    ],
+)
+def test_what_would_fail_later_is_refused_before_the_run(arguments: list[str], answer: str, tmp_path: Path) -> None:
+    run = bubblesim("run", *arguments, cwd=tmp_path)
+    assert (run.returncode, run.stderr[: len(answer) + 7]) == (2, f"error: {answer}")
+
+
 def test_a_roscore_and_a_controller_come_and_go_with_it_and_the_path_is_drawn(tmp_path: Path) -> None:
     port = free_port()
     options = ["--roscore", "--controller", "rosrun bubblesim tricycle_avoid.py", "--plot", tmp_path / "path.png"]
@@ -83,6 +97,16 @@ def test_a_controller_that_ends_is_reported_and_ends_the_run(roscore: RosCore) -
     run = bubblesim("run", "ball", "--controller", "sh -c 'exit 3'", env={**os.environ, **roscore.env})
     assert run.returncode == 1
     assert "the controller ended with exit code 3" in run.stderr
+
+
+def test_a_program_of_a_package_is_found_by_rosrun(roscore: RosCore) -> None:
+    run = bubblesim("run", "ball", "--controller", "tricycle_avoid", *FAST, env=roscore.env)
+    assert run.returncode == 1
+    assert (
+        "cannot start the controller: tricycle_avoid: No such file or directory; a program of a package is "
+        in run.stderr
+    )
+    assert "started with rosrun PACKAGE tricycle_avoid" in run.stderr
 
 
 def test_a_controller_that_is_not_there_is_reported(roscore: RosCore) -> None:

@@ -29,5 +29,5 @@ def test_bubblesim_connect_has_typed_results(node: RemoteNode) -> None:
 
 def test_bubblesim_connect_reports_that_no_server_answers() -> None:
     port = free_port()
-    with pytest.raises(TimeoutError, match=f"no answer from 127.0.0.1:{port}"):
+    with pytest.raises(TimeoutError, match=rf"no answer from 127.0.0.1:{port} in 0.2 s: .* --remote={port}"):
         bubblesim.connect(port, timeout=0.2)

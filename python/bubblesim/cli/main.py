@@ -31,6 +31,8 @@ _COMMANDS = (
     "compat",
     "doctor",
 )
+_OPTIONS = ("--version", "--help", "-h")
+_ELSEWHERE = {"help": "bubblesim --help", "add-message": "rosrun bubblesim add_message"}
 _FAILED, _BAD_INPUT = 1, 2
 
 _DESCRIPTION = """\
@@ -88,10 +90,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
         print(f"bubblesim {_core.__version__}")
         return 0
-    if given[:1] and not given[0].startswith("-") and given[0] not in _COMMANDS:
-        near = did_you_mean(difflib.get_close_matches(given[0], _COMMANDS, n=2))
-        known = "; the commands are " + ", ".join(_COMMANDS)
-        parser.error(f"there is no command '{given[0]}'{near or known}")
+    if given[:1] and given[0] not in _COMMANDS and given[0] not in _OPTIONS:
+        parser.error(_unknown(given[0]))
     # Add only the requested command if it is known: some commands load slowly.
     for command in given[:1] if given[:1] and given[0] in _COMMANDS else _COMMANDS:
         importlib.import_module(f"bubblesim.cli.{command.replace('-', '_')}").add_parser(commands)
@@ -109,3 +109,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"error: {error}", file=sys.stderr)
         return _FAILED
     return code
+
+
+def _unknown(word: str) -> str:
+    """Return the error for a first word that is neither a command nor an option."""
+    if word.startswith("-"):
+        near = did_you_mean(difflib.get_close_matches(word, _OPTIONS, n=1))
+        return f"there is no option '{word}'{near or '; options follow a command: bubblesim COMMAND [option ...]'}"
+    if word.replace("_", "-") in _ELSEWHERE:
+        return f"there is no command '{word}'; did you mean `{_ELSEWHERE[word.replace('_', '-')]}`?"
+    near = did_you_mean(difflib.get_close_matches(word, _COMMANDS, n=2))
+    return f"there is no command '{word}'{near or '; the commands are ' + ', '.join(_COMMANDS)}"

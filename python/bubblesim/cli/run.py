@@ -33,6 +33,7 @@ below, are accepted after the scene's name.
   bubblesim run robot.xacro wheels:=4 --roscore        with an argument for xacro
   bubblesim run tricycle --roscore --controller "rosrun bubblesim tricycle_avoid.py" --until 60 --plot path.png"""
 
+_PLOTS = (".png", ".pdf", ".svg")
 _WAITING = {"--paused", "--remote"}  # options with which the simulation waits for others
 
 
@@ -76,6 +77,7 @@ def _run(options: argparse.Namespace) -> int:
     given = options.all_arguments
     if options.other_options and given.index(options.other_options[0]) < given.index(options.scene):
         raise ValueError("the scene comes first: bubblesim run SCENE [option ...]")
+    _check_arguments(options)
     if options.isolated:
         _isolate(options)
     node = [str(node_program()), options.scene, *options.other_options]
@@ -84,6 +86,21 @@ def _run(options: argparse.Namespace) -> int:
         sys.stdout.flush()
         os.execv(node[0], node)
     return _run_with_programs(options, node)
+
+
+def _check_arguments(options: argparse.Namespace) -> None:
+    """Refuse what would fail later; raise ValueError."""
+    scene = Path(options.scene)
+    if scene.suffix == ".launch":
+        raise ValueError(f"{scene} is a launch file, not a scene: roslaunch bubblesim {scene.name}")
+    if scene.is_dir() and (options.scene in (".", "..") or "/" in options.scene):  # a name may be that of a folder
+        raise ValueError(f"{scene} is a folder, not a scene: give the .sdf file in it, or a name of `bubblesim scenes`")
+    if options.plot is None:
+        return
+    if options.plot.suffix not in _PLOTS:
+        raise ValueError(f"--plot: {options.plot} does not end with {' or '.join(_PLOTS)}, the formats of pictures")
+    if not options.plot.absolute().parent.is_dir():
+        raise ValueError(f"--plot: there is no folder {options.plot.parent}: make it first")
 
 
 def _isolate(options: argparse.Namespace) -> None:
@@ -121,12 +138,19 @@ def _run_with_programs(options: argparse.Namespace, node: list[str]) -> int:
         others = list(programs.running)
         simulator = programs.start("simulator", *node, shown=True)
         if options.controller:
-            others.append(programs.start("controller", *options.controller, shown=True))
+            others.append(_start_controller(programs, options.controller))
         _wait(simulator, others, stop, path)
     if path:
         path.draw()
     code = simulator.exit_code or 0
     return max(code, 0) if stop.requested else code  # it may have received the signal before it installed its handler
+
+
+def _start_controller(programs: Programs, command: list[str]) -> Program:
+    try:
+        return programs.start("controller", *command, shown=True)
+    except RunError as error:
+        raise RunError(f"{error}; a program of a package is started with rosrun PACKAGE {command[0]}") from None
 
 
 def _wait(simulator: Program, others: list[Program], stop: Stop, path: _Path | None) -> None:

@@ -70,7 +70,7 @@ def _open(options: argparse.Namespace) -> int:
         try:
             connection = stack.enter_context(_ShellConnection(port, timeout=5.0, token=token))
         except TimeoutError as error:
-            raise RunError(f"{error}; start it with --remote={port}") from None
+            raise RunError(str(error)) from None
         _Prompt(connection, node).interact(f"sim: the simulator on port {port}; Ctrl-D ends", exitmsg="")
     return 0
 

@@ -49,7 +49,12 @@ class Connection:
         self._socket.connect(f"tcp://{self._address}")
         try:
             known = self.call("zmqRemoteApi.info", "sim")
-        except (TimeoutError, RuntimeError):
+        except TimeoutError:
+            self.close()
+            raise TimeoutError(
+                f"no answer from {self._address} in {timeout:g} s: is there a simulator? start it with --remote={port}"
+            ) from None
+        except RuntimeError:
             self.close()
             raise
         self.sim: Any = SimpleNamespace(**{name: e["const"] for name, e in known.items() if "const" in e})
