@@ -10,6 +10,7 @@ from typing import Any
 from bubblesim._core import SceneError, scene_folders
 from bubblesim.scene_state.saved_scene import scene_text, write_scene
 from bubblesim.scripting.api.functions import for_remote_only
+from bubblesim.scripting.api.sim.browser_models import browser_model, suggestion
 from bubblesim.scripting.api.sim.created_sensors import CreatedSensorFunctions
 
 _SCENES = (".sdf", ".world", ".urdf")
@@ -57,14 +58,21 @@ class SceneFileFunctions(CreatedSensorFunctions):
         """Add a model by the name of its file and return its handle; not in sysCall_sensing.
 
         It is searched as models/NAME/model.sdf and NAME.sdf, then as NAME.ttm and models/NAME.ttm, in the folder of the
-        scene and the folders of scenes. A name that is taken gets a number; aliases of a .ttm file stay. It stays until
-        it is removed. The scripts of a .ttm file run as those of a .ttt file do.
+        scene and the folders of scenes. A .ttm file that is not there is one of CoppeliaSim's model browser, such as
+        'pioneer p3dx.ttm': ours of the same kind. A name that is taken gets a number; aliases of a .ttm file stay. It
+        stays until it is removed. The scripts of a .ttm file run as those of a .ttt file do.
         """
         name = stem(file)
+        own = Path(scene_folders()[-1])
         folders = [self._own_folder(), *map(Path, scene_folders())]
+        of_browser = browser_model(file)
+        if of_browser and file.casefold().endswith(".ttm"):
+            folders = [folder for folder in folders if folder.absolute() != own.absolute()]
         kinds = (f"models/{name}/model.sdf", f"{name}.sdf"), (f"{name}.ttm", f"models/{name}.ttm")
         places = [folder / place for kind in kinds for folder in folders for place in kind]
-        found = self._find("sim.loadModel", "model", file, places)
+        if of_browser and self._existing(file, places) is None:
+            return self._tree.object_of(self._add_model(of_browser.text(), of_browser.object))
+        found = self._find("sim.loadModel", "model", file, places, suggestion(name))
         if found.suffix in _FOREIGN:
             return self._add_foreign_models(found)
         try:
@@ -75,23 +83,29 @@ class SceneFileFunctions(CreatedSensorFunctions):
     def _own_folder(self) -> Path:
         return Path(self._simulation.scene_file).parent
 
-    def _find(self, function: str, what: str, file: str, places: Sequence[Path]) -> Path:
+    def _find(self, function: str, what: str, file: str, places: Sequence[Path], hint: str = "") -> Path:
         """Return the first of these files that exists, or the given one if the caller may use all files.
 
-        :raises LookupError: with the files that were searched.
+        :raises LookupError: with the files that were searched, and the hint.
         """
+        found = self._existing(file, places)
+        if found is None:
+            searched = ", ".join(map(str, self._searched(file, places)))
+            raise LookupError(f"{function}: there is no {what} '{stem(file)}'; searched: {searched}{hint}")
+        return found
+
+    def _existing(self, file: str, places: Sequence[Path]) -> Path | None:
+        return next((place for place in self._searched(file, places) if place.is_file()), None)
+
+    def _searched(self, file: str, places: Sequence[Path]) -> list[Path]:
+        """Return these places, after the given one if the caller may use all files."""
         searched = list(dict.fromkeys(place.absolute() for place in places))
         if self._caller.may_use_files and Path(file).parent != Path():
             given = Path(file)
             searched.insert(0, given if given.suffix in _SCENES else given.with_suffix(".sdf"))
             if given.suffix in _FOREIGN:
                 searched.insert(1, given)
-        found = next((place for place in searched if place.is_file()), None)
-        if found is None:
-            raise LookupError(
-                f"{function}: there is no {what} '{stem(file)}'; searched: {', '.join(map(str, searched))}"
-            )
-        return found
+        return searched
 
 
 def stem(file: str) -> str:

@@ -1,0 +1,25 @@
+#python
+# SPDX-License-Identifier: BSD-3-Clause
+# A Braitenberg vehicle: what a front sonar sees within half a metre slows the wheels, most of all the one on the other
+# side, which turns the robot away.
+SPEED = 2.0  # rad/s
+FAR, NEAR = 0.5, 0.2  # m: no effect, full effect
+SLOWS_LEFT = (0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6)  # rad/s at full effect, from the left sonar to the right one
+
+
+def sysCall_init():
+    self.motors = [sim.getObject(f'./{side}Motor') for side in ('left', 'right')]
+    self.sonars = [sim.getObject(f'./ultrasonicSensor[{i}]') for i in range(8)]
+
+
+def sysCall_actuation():
+    effects = [effect(sonar) for sonar in self.sonars]
+    for motor, slows in zip(self.motors, (SLOWS_LEFT, SLOWS_LEFT[::-1]), strict=True):
+        slower = sum(share * seen for share, seen in zip(slows, effects, strict=True))
+        sim.setJointTargetVelocity(motor, SPEED - slower)
+
+
+def effect(sonar):
+    """Return how near a sonar sees something, from 0 to 1."""
+    seen, distance, *_ = sim.readProximitySensor(sonar)
+    return min(1.0, max(0.0, (FAR - distance) / (FAR - NEAR))) if seen > 0 else 0.0

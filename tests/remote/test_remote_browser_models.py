@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The official client loads models by the names of CoppeliaSim's model browser."""
+
+from pathlib import Path
+
+from bubblesim.scripting.api.sim.browser_models import BROWSER_MODELS
+from remote_support import RemoteNode, refusal
+
+
+def test_a_client_loads_each_model_of_the_browser(tmp_path: Path) -> None:
+    with RemoteNode(tmp_path, "--speed", "max", scene="p3dx_floor") as node:
+        sim = node.sim()
+        sim.removeModel(sim.getObject("/PioneerP3DX"))
+        for model in BROWSER_MODELS:
+            base = sim.loadModel(f"./models/robots/mobile/{model.files[-1]}.ttm")
+            assert sim.getObjectAlias(base).startswith(model.object)
+            sim.removeModel(base)
+        assert "did you mean 'UR10'?" in refusal(sim.loadModel, "models/robots/non-mobile/UR-100.ttm")
+
+
+def test_a_program_for_an_arm_with_a_gripper_runs_unchanged(tmp_path: Path) -> None:
+    with RemoteNode(tmp_path, "--speed", "max", scene="p3dx_floor") as node:
+        sim = node.sim()
+        arm = sim.loadModel("models/robots/non-mobile/UR5.ttm")
+        sim.setObjectPosition(arm, [1.5, 0, 0])
+        gripper = sim.loadModel("models/components/grippers/RG2.ttm")
+        connection = sim.getObject("/UR5/connection")
+        sim.setObjectPose(gripper, [0, 0, 0, 0, 0, 0, 1], connection)
+        sim.setObjectParent(gripper, connection, True)
+        joints = [sim.getObject("/UR5" + "/joint/link" * i + "/joint") for i in range(6)]
+        sim.setStepping(True)
+        sim.startSimulation()
+        for joint, position in zip(joints, (0.5, 0.7, -0.9, 0.4, -1.0, 0.8), strict=True):
+            sim.setJointTargetPosition(joint, position)
+        sim.setInt32Signal("RG2_open", 1)
+        while sim.getSimulationTime() < 3:
+            sim.step()
+        assert sim.getObject("/UR5/RG2/openCloseJoint") > 0
+        assert abs(sim.getJointPosition(sim.getObject("/RG2/openCloseJoint")) - 0.055) < 2e-3
+        assert max(abs(part) for part in sim.getObjectPosition(gripper, connection)) < 5e-3
+        sim.stopSimulation()
