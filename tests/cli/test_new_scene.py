@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """bubblesim new-scene."""
 
+import os
+import pty
+import re
 from pathlib import Path
 
 import pytest
 
 from cli_support import bubblesim
 from node_support import Node, run_sim, without_slowness
-from ros_support import RosCore, wait_until
+from ros_support import RosCore, built, start, wait_until
 
 
 def test_the_new_scene_runs_as_it_is(tmp_path: Path) -> None:
@@ -22,10 +25,42 @@ def test_the_new_scene_runs_as_it_is(tmp_path: Path) -> None:
     assert y > 0.3
 
 
+@pytest.mark.parametrize(
+    ("template", "seconds", "expected"),
+    [
+        ("arm", 5.9, r"the joints are at -0.80, 0.60, 1.20 rad"),  # the third pose
+        ("drone", 7.9, r"the quadcopter is at (0.9|1.0)\d, -?0.0\d, (0.9|1.0)\d m"),  # the second goal
+        ("empty", 1, r"^$"),
+    ],
+)
+def test_each_template_does_what_its_script_says(tmp_path: Path, template: str, seconds: float, expected: str) -> None:
+    bubblesim("new-scene", "mine", "--template", template, cwd=tmp_path)
+    run = bubblesim("run", "./mine.sdf", "--no-ros", "--speed", "max", "--until", seconds, "--strict", cwd=tmp_path)
+    assert (run.returncode, without_slowness(run.stderr)) == (0, "")
+    assert re.search(expected, run.stdout), run.stdout
+    assert bubblesim("check", "./mine.sdf", cwd=tmp_path).stdout == "./mine.sdf: fine\n"
+
+
+def test_a_terminal_is_asked_for_the_template(tmp_path: Path) -> None:
+    ours, theirs = pty.openpty()
+    try:
+        run = start(
+            [str(built("bubblesim")), "new-scene", "mine"], dict(os.environ), cwd=tmp_path, stdin=theirs, stderr=theirs
+        )
+        os.write(ours, b"9\n2\n")
+        assert run.wait(60) == 0
+        assert os.read(ours, 4096).count(b"template [1]:") == 2
+    finally:
+        os.close(ours)
+        os.close(theirs)
+    assert 'model name="Arm"' in (tmp_path / "mine.sdf").read_text()
+
+
 def test_the_new_scene_talks_to_ros(tmp_path: Path, roscore: RosCore) -> None:
     bubblesim("new-scene", "mine", "--folder", tmp_path)
     with Node(roscore.env, tmp_path / "log", tmp_path / "mine.sdf", "--strict"):
         wait_until(lambda: {"/sonar", "/tf"} <= set(roscore.state()["publishers"]), "the topics of the scene")
+        assert "range_max: 8.0" in roscore.run("rostopic", "echo", "-n", "1", "/scan")
         assert {"/left", "/right"} <= set(roscore.state()["subscribers"])
         assert "data: " in roscore.run("rostopic", "echo", "-n", "1", "/sonar")
 
