@@ -47,6 +47,21 @@ export class Editing extends Emitter {
     return this.carry({ title, redo: () => set(value), undo: () => set(before) });
   }
 
+  /// Gives a link colour and friction of a material; undone, it has the colour of its first visual and its friction.
+  async material(object, name, { colour, friction }) {
+    const { link, scene } = this.#app;
+    const target = { handle: object.handle };
+    const before = {
+      colour: scene.colours.get(object.handle) ?? object.visuals[0].material.diffuse,
+      friction: (await link.call("window.get_state", [object.handle], "properties")).numbers.friction,
+    };
+    const set = async (to) => {
+      await link.call("window.set_color", [this.#now(target), to.colour]);
+      if (before.friction !== undefined) await link.call("window.set_number", [this.#now(target), "friction", to.friction]);
+    };
+    return this.carry({ title: `${name} ${object.name}`, redo: () => set({ colour, friction }), undo: () => set(before) });
+  }
+
   remove(object) {
     const target = { handle: object.handle };
     let number;
@@ -69,7 +84,16 @@ export class Editing extends Emitter {
     return this.#create(`add ${name}`, () => ["window.add_model", [name, position]]);
   }
 
+  /// Adds a part of the palette, see window.build.
+  build(kind, position, options) {
+    return this.#create(`add ${kind.replace("_", " ")}`, () => ["window.build", [kind, position, options]]);
+  }
+
   carry(change) {
+    if (this.#app.playback.run) {
+      this.#app.notify("This is a playback: go back to live to change the scene.", "warning");
+      return Promise.resolve();
+    }
     return this.#next(async () => {
       await change.redo();
       this.done.push(change);
@@ -79,6 +103,7 @@ export class Editing extends Emitter {
   }
 
   undo() {
+    if (this.#app.playback.run) return Promise.resolve();
     return this.#next(async () => {
       const change = this.done.pop();
       if (!change) return;
@@ -88,6 +113,7 @@ export class Editing extends Emitter {
   }
 
   redo() {
+    if (this.#app.playback.run) return Promise.resolve();
     return this.#next(async () => {
       const change = this.undone.pop();
       if (!change) return;

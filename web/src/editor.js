@@ -234,7 +234,7 @@ export class Editor {
   async #lint(view) {
     const { doc } = view.state;
     const errors = await this.#calls.check(doc.toString()).catch(() => []);
-    const all = [...errors.map((each) => ({ ...each, level: "error" })), ...this.#problems];
+    const all = [...errors.map((each) => ({ level: "error", ...each })), ...this.#problems];
     return all.map(({ line, text, level }) => {
       const { from, to } = doc.line(Math.min(Math.max(line, 1), doc.lines));
       return { from, to, severity: level, message: text };

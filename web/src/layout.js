@@ -5,11 +5,13 @@ import { icon } from "./icons.js";
 
 const SIZES = { left: 260, right: 300, bottom: 240 };
 const LEAST = 120;
+const STEP = 20; // of a key
 
 export class Layout {
   element = h("div.layout");
   toolbar = h("header.toolbar");
   centre = h("main.centre");
+  #under = h("div.under");
   #places = {};
 
   constructor() {
@@ -21,7 +23,7 @@ export class Layout {
         "div.row",
         left.element,
         left.splitter,
-        h("div.column", this.centre, bottom.splitter, bottom.element),
+        h("div.column", this.centre, this.#under, bottom.splitter, bottom.element),
         right.splitter,
         right.element,
       ),
@@ -31,6 +33,11 @@ export class Layout {
   /// Adds a panel, see panels/index.js.
   add(panel, app) {
     this.#places[panel.place].add(panel, app);
+  }
+
+  /// Adds a line below the 3D view.
+  below(element) {
+    this.#under.append(element);
   }
 
   /// Brings the panel of this id to the front.
@@ -59,7 +66,14 @@ class Place {
   constructor(name) {
     this.name = name;
     this.element = h(`section.place.empty.${name}`, this.#tabs, this.#body);
-    this.splitter = h(`div.splitter.${name === "bottom" ? "across" : "along"}`, { title: "Drag to resize" });
+    this.splitter = h(`div.splitter.${name === "bottom" ? "across" : "along"}`, {
+      title: "Drag to resize, or use the arrow keys",
+      role: "separator",
+      tabIndex: 0,
+      "aria-label": `Size of the panels ${name === "bottom" ? "below" : `at the ${name}`}`,
+      "aria-orientation": name === "bottom" ? "horizontal" : "vertical",
+      onkeydown: (event) => this.#press(event),
+    });
     this.#resize(Number(localStorage.getItem(`size-${name}`)) || SIZES[name]);
     if (localStorage.getItem(`hidden-${name}`) === "yes") this.element.hidden = true;
     this.splitter.addEventListener("pointerdown", (event) => this.#drag(event));
@@ -71,6 +85,8 @@ class Place {
     const content = panel.create(app);
     content.classList.add("panel");
     content.dataset.panel = panel.id;
+    content.role = "tabpanel";
+    content.ariaLabel = panel.title;
     content.hidden = true;
     const tab = h("button.tab", { role: "tab", onclick: () => this.#select(panel.id) }, panel.title);
     tab.dataset.panel = panel.id;
@@ -133,14 +149,30 @@ class Place {
     return kept;
   }
 
+  /// Resizes by keys: each arrow moves the border its way.
+  #press(event) {
+    const grows = { left: "ArrowRight", right: "ArrowLeft", bottom: "ArrowUp" }[this.name];
+    const shrinks = { left: "ArrowLeft", right: "ArrowRight", bottom: "ArrowDown" }[this.name];
+    if (event.key !== grows && event.key !== shrinks) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const box = this.element.getBoundingClientRect();
+    const size = this.name === "bottom" ? box.height : box.width;
+    this.#keep(size + (event.key === grows ? STEP : -STEP));
+  }
+
+  #keep(size) {
+    localStorage.setItem(`size-${this.name}`, this.#resize(size));
+    window.dispatchEvent(new Event("resize"));
+  }
+
   #drag(event) {
     event.preventDefault();
     this.splitter.setPointerCapture(event.pointerId);
     const box = this.element.getBoundingClientRect();
     const move = ({ clientX, clientY }) => {
       const size = { left: clientX - box.left, right: box.right - clientX, bottom: box.bottom - clientY }[this.name];
-      localStorage.setItem(`size-${this.name}`, this.#resize(size));
-      window.dispatchEvent(new Event("resize"));
+      this.#keep(size);
     };
     this.splitter.addEventListener("pointermove", move);
     const end = () => this.splitter.removeEventListener("pointermove", move);

@@ -4,6 +4,9 @@
 //   scene      the objects (scene.js)
 //   selection  the selected object (selection.js)
 //   view       the 3D view (view/view.js)
+//   recorder   the last runs (playback/recorder.js)
+//   playback   shows one of them (playback/playback.js)
+//   files      opens files (files.js)
 //   editing    changes of the scene that can be undone (editing.js)
 //   layout     show(id) brings a panel to the front
 //   notify(text, level)   shows a message
@@ -12,11 +15,15 @@ import "./main.css";
 
 import { h } from "./dom.js";
 import { Editing } from "./editing.js";
+import { Files } from "./files.js";
 import { showFirstSteps } from "./first_steps.js";
 import { Layout } from "./layout.js";
 import { Link } from "./link.js";
 import { Notices } from "./notices.js";
 import { panels } from "./panels/index.js";
+import { PlaybackBar } from "./playback/bar.js";
+import { Playback } from "./playback/playback.js";
+import { Recorder } from "./playback/recorder.js";
 import { Scene } from "./scene.js";
 import { Selection } from "./selection.js";
 import { applyTheme } from "./theme.js";
@@ -38,10 +45,14 @@ app.attempt = async (name, args = [], connection = "") => {
     return undefined;
   }
 };
+app.recorder = new Recorder(link, scene);
+app.playback = new Playback();
 app.editing = new Editing(app);
 app.view = new View(app);
+app.files = new Files(app);
 app.toolbar = new Toolbar(app);
 layout.centre.append(app.view.element);
+layout.below(new PlaybackBar(app).element);
 for (const panel of panels) layout.add(panel, app);
 
 const lost = h("div.lost", { hidden: true });
@@ -49,6 +60,8 @@ const showState = () => {
   const text = !link.connected ? link.problem : scene.info ? "" : "Waiting for the simulator";
   lost.hidden = !text;
   lost.textContent = text;
+  layout.centre.classList.toggle("past", Boolean(text)); // what is shown was the last picture
+  app.toolbar.showLost(Boolean(text));
 };
 link.on("connection", showState);
 link.on("problem", showState);
@@ -61,7 +74,7 @@ link.on("scene", (info) => {
   layout.showFor(info);
   showState();
 });
-layout.centre.append(lost, notices.element);
+layout.centre.append(lost, notices.element, app.files.element);
 showFirstSteps(app);
 document.body.append(layout.element);
 showState();

@@ -28,6 +28,7 @@ export class Toolbar {
     this.pause = button("pause", "Pause (Space)", () => app.attempt("window.pause"));
     this.stop = button("stop", "Stop: back to the start of the scene (Shift+Space)", () => app.attempt("window.stop"));
     this.step = button("step", "One step (N)", () => app.attempt("window.step", [1]));
+    this.back = button("history", "Play the last run back (L)", () => this.togglePlayback());
     this.speed = h(
       "select.speed",
       { title: "Simulated seconds per second", onchange: () => app.attempt("window.speed", [Number(this.speed.value)]) },
@@ -42,7 +43,7 @@ export class Toolbar {
     app.layout.toolbar.append(
       h("span.brand", icon("logo")),
       this.title,
-      h("div.group", this.play, this.pause, this.stop, this.step),
+      h("div.group", this.play, this.pause, this.stop, this.step, this.back),
       this.speed,
       this.state,
       this.time,
@@ -61,16 +62,56 @@ export class Toolbar {
       );
     });
     app.link.on("speed", (speed) => this.#showSpeed(speed));
-    app.link.on("hello", ({ edit }) => {
-      for (const each of [this.play, this.pause, this.stop, this.step, this.speed]) each.disabled = !edit;
-    });
+    app.link.on("hello", () => this.#enable());
     app.link.on("frame", (frame) => this.#follow(frame));
+    app.playback.on("changed", () => this.#showPlayback());
     window.addEventListener("keydown", (event) => this.#key(event));
   }
 
   #factors = []; // [wall time in s, simulated s]
 
+  /// The buttons act on the simulation, which a playback does not show.
+  #enable() {
+    const { link, playback } = this.#app;
+    for (const each of [this.play, this.pause, this.stop, this.step, this.speed]) each.disabled = !link.mayEdit || playback.run !== null;
+  }
+
+  /// Begins to play the last run back, or ends it.
+  togglePlayback() {
+    const { playback, recorder, notify } = this.#app;
+    const [run] = recorder.usable;
+    if (playback.run) playback.end();
+    else if (run) playback.begin(run);
+    else notify("There is no run to play back: this page records what moves while it is open.");
+  }
+
+  #showPlayback() {
+    const { playback, link, scene } = this.#app;
+    this.back.classList.toggle("on", playback.run !== null);
+    this.#enable();
+    if (!playback.run) {
+      if (link.frame) this.#follow(link.frame);
+      this.showLost(!link.connected || !scene.info);
+      return;
+    }
+    for (const each of [this.play, this.pause, this.stop]) each.classList.remove("on");
+    this.#set(this.time, `${playback.time.toFixed(2)} s`);
+    this.#set(this.factor, "");
+    this.#set(this.state, "playback");
+    this.state.dataset.state = "playback";
+  }
+
+  /// Without a simulator nothing runs, whatever the last frame said.
+  showLost(lost) {
+    if (!lost || this.#app.playback.run) return;
+    this.#set(this.state, "ended");
+    this.#set(this.factor, "");
+    this.state.dataset.state = "ended";
+    for (const each of [this.play, this.pause, this.stop]) each.classList.remove("on");
+  }
+
   #follow(frame) {
+    if (this.#app.playback.run) return;
     const { written, time, state } = frame;
     this.#set(this.time, `${time.toFixed(2)} s`);
     this.#set(this.state, state);
@@ -150,6 +191,7 @@ export class Toolbar {
       view.emit("options");
     });
     const save = button("save", "Save scene as (Ctrl+S)", () => showSaving(this.#app));
+    const open = button("open", "Open a recorded run, or a scene of CoppeliaSim (Ctrl+O)", () => this.#app.files.ask());
     const { editing } = this.#app;
     this.undo = button("undo", "Undo (Ctrl+Z)", () => editing.undo());
     this.redo = button("redo", "Redo (Ctrl+Y)", () => editing.redo());
@@ -167,7 +209,7 @@ export class Toolbar {
     };
     view.on("options", showModes);
     showModes();
-    const editTools = h("div.group", modes.map(([, each]) => each), this.snap, this.undo, this.redo, save);
+    const editTools = h("div.group", modes.map(([, each]) => each), this.snap, this.undo, this.redo, save, open);
     this.#app.link.on("hello", ({ edit }) => (editTools.hidden = !edit));
     this.left.append(editTools, sides, this.follow, h("div.dropdown", opener, menu));
     this.right.append(
@@ -187,19 +229,27 @@ export class Toolbar {
   }
 
   #key(event) {
-    const { view, selection, link } = this.#app;
-    if (event.target.closest("input, textarea, select, dialog, [contenteditable], .cm-editor")) return;
+    const { view, selection, link, playback } = this.#app;
+    if (event.target.closest("input:not([type=range]), textarea, select, dialog, [contenteditable], .cm-editor")) return;
+    if (event.key === " " && event.target.matches("button:focus-visible")) return; // it presses the button
     if ((event.ctrlKey || event.metaKey) && event.key === "s" && link.mayEdit) {
       event.preventDefault();
       showSaving(this.#app);
     }
+    if ((event.ctrlKey || event.metaKey) && event.key === "o") {
+      event.preventDefault();
+      this.#app.files.ask();
+    }
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const actions = {
       " ": () => {
-        if (event.shiftKey) this.stop.click();
+        if (playback.run && playback.plays) playback.pause();
+        else if (playback.run) playback.play();
+        else if (event.shiftKey) this.stop.click();
         else (link.frame?.state === "running" ? this.pause : this.play).click();
       },
       n: () => this.step.click(),
+      l: () => this.togglePlayback(),
       f: () => this.#toggleFollow(),
       Home: () => view.viewpoint.lookAtAll(),
       7: () => view.viewpoint.lookFrom("top"),

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from bubblesim.cli.foreign_scenes import read_foreign
+from bubblesim.running.foreign_scenes import read_foreign
 
 _DESCRIPTION = """\
 Writes a file of CoppeliaSim (.ttt, .ttm) as a scene in SDFormat: FOLDER/scene.sdf, with its meshes, textures and child

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from bubblesim.cli.foreign_scenes import read_foreign
+from bubblesim.running.foreign_scenes import read_foreign
 
 _DESCRIPTION = """\
 Prints the objects of a file of CoppeliaSim (.ttt, .ttm), its scripts, and what will be left out or changed when it is

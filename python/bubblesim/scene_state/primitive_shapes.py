@@ -9,15 +9,15 @@ from dataclasses import dataclass
 
 _DENSITY = 1000.0  # kg/m^3
 _FLAT = 1e-4  # m, height of planes and discs
-_PLANE, _DISC, _CUBOID, _SPHEROID, _CYLINDER, _CONE, _CAPSULE = 1, 2, 3, 4, 5, 6, 7
+PLANE, DISC, CUBOID, SPHEROID, CYLINDER, CONE, CAPSULE = 1, 2, 3, 4, 5, 6, 7
 _NAMES = {
-    _PLANE: "Plane",
-    _DISC: "Disc",
-    _CUBOID: "Cuboid",
-    _SPHEROID: "Sphere",
-    _CYLINDER: "Cylinder",
-    _CONE: "Cone",
-    _CAPSULE: "Capsule",
+    PLANE: "Plane",
+    DISC: "Disc",
+    CUBOID: "Cuboid",
+    SPHEROID: "Sphere",
+    CYLINDER: "Cylinder",
+    CONE: "Cone",
+    CAPSULE: "Capsule",
 }
 
 
@@ -45,12 +45,12 @@ class PrimitiveShape:
         if len(self.sizes) != 3 or not all(0 < size < 1e4 for size in self._lengths()):
             raise ValueError(f"the sizes of a shape are three lengths in m from 0 to 10000, found {self.sizes}")
         x, y, z = self._lengths()
-        if self.kind in (_DISC, _CYLINDER, _CONE, _CAPSULE) and not math.isclose(x, y):
+        if self.kind in (DISC, CYLINDER, CONE, CAPSULE) and not math.isclose(x, y):
             raise ValueError(f"a {self.name.lower()} must have equal sizes along x and y, found {x:g} and {y:g}")
-        if self.kind == _CAPSULE and z < x:
+        if self.kind == CAPSULE and z < x:
             raise ValueError(f"a capsule is at least as long as thick, found {z:g} and {x:g}")
         if not self.mass:
-            self.mass = _DENSITY * self._volume()
+            self.mass = _DENSITY * self.volume
 
     @property
     def name(self) -> str:
@@ -59,10 +59,10 @@ class PrimitiveShape:
 
     def sdf(self) -> str:
         """Return the model as SDFormat."""
-        geometry = f"<geometry>{self._geometry()}</geometry>"
+        geometry = f"<geometry>{self.geometry}</geometry>"
         apart = "" if self.respondable else "<surface><contact><collide_bitmask>0</collide_bitmask></contact></surface>"
         collision = f'<collision name="collision">{geometry}{apart}</collision>'
-        xx, yy, zz = self._inertia()
+        xx, yy, zz = self.inertia
         return (
             f'<sdf version="1.9"><model name="{self.name}"><link name="link"><gravity>{str(not self.static).lower()}'
             f"</gravity><inertial><mass>{self.mass!r}</mass><inertia><ixx>{xx!r}</ixx><iyy>{yy!r}</iyy><izz>{zz!r}</izz>"
@@ -70,28 +70,31 @@ class PrimitiveShape:
         )
 
     def _lengths(self) -> Sequence[float]:
-        return [*self.sizes[:2], _FLAT] if self.kind in (_PLANE, _DISC) else self.sizes
+        return [*self.sizes[:2], _FLAT] if self.kind in (PLANE, DISC) else self.sizes
 
-    def _volume(self) -> float:
+    @property
+    def volume(self) -> float:
+        """Its volume, m^3."""
         x, y, z = self._lengths()
-        if self.kind == _SPHEROID:
+        if self.kind == SPHEROID:
             return math.pi / 6 * x * y * z
-        if self.kind in (_DISC, _CYLINDER):
+        if self.kind in (DISC, CYLINDER):
             return math.pi / 4 * x * y * z
-        if self.kind == _CONE:
+        if self.kind == CONE:
             return math.pi / 12 * x * y * z
-        if self.kind == _CAPSULE:
+        if self.kind == CAPSULE:
             return math.pi / 4 * x * x * (z - x) + math.pi / 6 * x**3
         return x * y * z
 
-    def _inertia(self) -> tuple[float, float, float]:
-        """Return the moments about the centre in kg m^2; of a capsule those of a cylinder of its length."""
+    @property
+    def inertia(self) -> tuple[float, float, float]:
+        """The moments about the centre in kg m^2; of a capsule those of a cylinder of its length."""
         x, y, z = self._lengths()
-        if self.kind == _SPHEROID:
+        if self.kind == SPHEROID:
             a, b, c = (self.mass / 20 * size * size for size in (x, y, z))
-        elif self.kind in (_PLANE, _CUBOID):
+        elif self.kind in (PLANE, CUBOID):
             a, b, c = (self.mass / 12 * size * size for size in (x, y, z))
-        elif self.kind == _CONE:  # of the length z, about its centre of mass, which is taken for that of the shape
+        elif self.kind == CONE:  # of the length z, about its centre of mass, which is taken for that of the shape
             a = b = self.mass * 3 / 80 * x * x
             c = self.mass * 3 / 80 * z * z
         else:
@@ -99,16 +102,18 @@ class PrimitiveShape:
             c = self.mass / 12 * z * z
         return b + c, a + c, a + b
 
-    def _geometry(self) -> str:
+    @property
+    def geometry(self) -> str:
+        """What is in its <geometry>."""
         x, y, z = self._lengths()
-        if self.kind == _SPHEROID and x == y == z:
+        if self.kind == SPHEROID and x == y == z:
             return f"<sphere><radius>{x / 2!r}</radius></sphere>"
-        if self.kind == _SPHEROID:
+        if self.kind == SPHEROID:
             return f"<ellipsoid><radii>{x / 2!r} {y / 2!r} {z / 2!r}</radii></ellipsoid>"
-        if self.kind in (_DISC, _CYLINDER):
+        if self.kind in (DISC, CYLINDER):
             return f"<cylinder><radius>{x / 2!r}</radius><length>{z!r}</length></cylinder>"
-        if self.kind == _CONE:
+        if self.kind == CONE:
             return f"<cone><radius>{x / 2!r}</radius><length>{z!r}</length></cone>"
-        if self.kind == _CAPSULE:
+        if self.kind == CAPSULE:
             return f"<capsule><radius>{x / 2!r}</radius><length>{z - x!r}</length></capsule>"
         return f"<box><size>{x!r} {y!r} {z!r}</size></box>"

@@ -19,6 +19,7 @@ from aiohttp import WSMsgType, web
 from bubblesim._core import cbor_decode
 from bubblesim.remote.control_lane import COMMANDS
 from bubblesim.web.access import Access, is_read_only
+from bubblesim.web.foreign_files import ForeignFile
 from bubblesim.web.hub import Hub
 from bubblesim.web.node_client import NodeError
 from bubblesim.web.ros_markers import PageMarkers
@@ -58,6 +59,7 @@ class Page:
         self.node = hub.connect()
         self.topics = PageTopics()
         self.markers = PageMarkers()
+        self.foreign = ForeignFile()
         self._socket = socket
         self._calls: set[asyncio.Task[None]] = set()
         self._sent: list[int] = []
@@ -68,6 +70,7 @@ class Page:
             ends.push_async_callback(self.topics.close)
             ends.push_async_callback(self.markers.close)
             ends.callback(self.node.close)
+            ends.callback(self.foreign.close)
             async with asyncio.TaskGroup() as tasks:
                 await self._receive_all(tasks)
 

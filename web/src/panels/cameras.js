@@ -37,10 +37,32 @@ class Picture {
     this.note = h("span.hint");
     this.element = h("figure.camera", this.canvas, h("figcaption", object.path, this.note));
     this.element.dataset.camera = object.path;
-    this.element.onclick = () => this.element.classList.toggle("large");
+    const enlarge = () => this.element.setAttribute("aria-pressed", this.element.classList.toggle("large"));
+    Object.assign(this.element, { onclick: enlarge, tabIndex: 0, role: "button", ariaLabel: `Enlarge ${object.path}` });
+    this.element.onkeydown = (event) => event.key === "Enter" && enlarge();
+  }
+
+  /// What the camera saw then, as the page draws it; depths are not drawn.
+  #replay({ time }) {
+    if (this.time === `played ${time}`) return;
+    this.time = `played ${time}`;
+    const context = this.canvas.getContext("2d");
+    if (!this.object.parameters.kind.startsWith("camera")) {
+      context.clearRect(0, 0, this.canvas.width, this.canvas.height);
+      this.note.textContent = " not in a playback";
+      return;
+    }
+    const { width, height, rgba } = this.app.view.pictureFrom(this.object);
+    if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
+    context.putImageData(new ImageData(rgba, width, height), 0, 0);
+    this.note.textContent = ` ${width} × ${height}, playback at ${time.toFixed(2)} s`;
   }
 
   async refresh() {
+    if (this.app.playback.run) {
+      this.#replay(this.app.playback);
+      return;
+    }
     const reading = await this.app.link.call("window.reading", [this.object.handle], "cameras");
     if (reading.time === this.time) return;
     this.time = reading.time;

@@ -5,6 +5,7 @@
 //   create(app)    returns its element; app is described in main.js
 //   needsRos       its tab is hidden for scenes without ROS (optional)
 //   show(), hide() called when its tab is selected, and when another one is (both optional)
+import { build } from "./build.js";
 import { cameras } from "./cameras.js";
 import { output } from "./console.js";
 import { dialogs } from "./dialogs.js";
@@ -17,4 +18,4 @@ import { record } from "./record.js";
 import { scripts } from "./scripts.js";
 import { tree } from "./tree.js";
 
-export const panels = [tree, models, properties, dialogs, driving, record, output, scripts, plots, cameras, problems];
+export const panels = [tree, models, build, properties, dialogs, driving, record, output, scripts, plots, cameras, problems];

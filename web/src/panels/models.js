@@ -42,16 +42,21 @@ class Models {
 
   #card(name, file) {
     const { link } = this.#app;
+    const add = () => link.mayEdit && this.#add(name, this.#app.view.viewpoint.controls.target.toArray().with(2, 0));
     const card = h(
       "figure.modelcard",
       {
-        title: `${file}\nDrag it into the view, or double-click.`,
+        title: `${file}\nDrag it into the view, double-click, or press Enter.`,
+        role: "button",
+        tabIndex: 0,
+        "aria-label": `Add ${name}`,
+        onkeydown: (event) => event.key === "Enter" && add(),
         draggable: link.mayEdit,
         ondragstart: (event) => {
           event.dataTransfer.setData("application/x-model", name);
           event.dataTransfer.effectAllowed = "copy";
         },
-        ondblclick: () => link.mayEdit && this.#add(name, this.#app.view.viewpoint.controls.target.toArray().with(2, 0)),
+        ondblclick: add,
       },
       h("div.picture"),
       h("figcaption", name),

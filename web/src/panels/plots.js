@@ -48,19 +48,22 @@ class Plot {
       value,
       h("button.close", { title: "Remove", onclick: () => this.#removeSeries(entry) }, "×"),
     );
-    this.series.push({ series, source, entry, value });
+    const known = { series, shown: series, source, entry, value, replay: (run, add) => sources[kind].replay?.(this.panel.app, chosen, run, add) };
+    this.series.push(known);
     this.legend.append(entry);
+    this.#choose(known);
     await this.#make();
   }
 
   draw(window) {
     if (!this.#chart || this.#zoomed) return;
-    let end = -Infinity;
+    const { playback } = this.panel.app;
+    const lasts = this.series.map(({ shown }) => shown.times.at(-1) ?? -Infinity);
+    const end = playback.run ? playback.time : Math.max(...lasts);
     let size = 0;
-    for (const { series, value } of this.series) {
-      end = Math.max(end, series.times.at(-1) ?? -Infinity);
-      size += series.times.length;
-      const last = series.values.at(-1);
+    for (const { shown, value } of this.series) {
+      size += shown.times.length;
+      const last = shown.part(end, Infinity)[1].at(-1);
       const text = last === undefined ? "-" : Number(last.toPrecision(4)).toString();
       if (value.textContent !== text) value.textContent = text;
     }
@@ -68,6 +71,23 @@ class Plot {
     if (now === this.#shown) return;
     this.#shown = now;
     this.#setData(end, window);
+  }
+
+  /// Shows the values of the run that is played back, or those of the simulation.
+  choose() {
+    for (const each of this.series) this.#choose(each);
+    this.follow();
+  }
+
+  /// Values that are not in frames, such as readings, are those that were collected while the last run was recorded.
+  #choose(known) {
+    const { playback, recorder } = this.panel.app;
+    const { run } = playback;
+    known.shown = known.series;
+    if (!run) return;
+    const replayed = new Series(known.series.label, known.series.colour);
+    known.replay(run, (time, value) => replayed.add(time, value));
+    if (replayed.times.length || run !== recorder.usable[0]) known.shown = replayed;
   }
 
   /// Shows all that follows, from now on.
@@ -83,7 +103,7 @@ class Plot {
   }
 
   #setData(end, window) {
-    const parts = this.series.map(({ series }) => series.part(end, window));
+    const parts = this.series.map(({ shown }) => shown.part(end, window));
     const data = parts.length === 1 ? parts[0] : this.#uPlot.join(parts);
     this.#chart.setData(data.length ? data : [[], []]);
   }
@@ -172,6 +192,9 @@ class Panel {
       this.form,
       this.area,
     );
+    const choose = () => this.plots.forEach((each) => each.choose());
+    app.playback.on("begin", choose);
+    app.playback.on("end", choose);
     app.plot = (kind, chosen, into) => this.add(kind, chosen, into);
   }
 

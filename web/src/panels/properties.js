@@ -59,8 +59,10 @@ class Properties {
   }
 
   async #look() {
-    const { selection, link } = this.#app;
+    const { selection, link, playback } = this.#app;
     const { object } = selection;
+    this.element.inert = playback.run !== null;
+    this.element.classList.toggle("past", this.element.inert);
     if (!object || this.#waiting || !link.connected || !link.frame || this.element.hidden || !this.element.isConnected) return;
     this.#waiting = true;
     try {
@@ -218,8 +220,24 @@ class Properties {
         ),
       ),
       ...object.visuals.map((visual) => section(`Visual ${visual.name}`, fields([["Shape", shapeText(visual.shape)]]))),
-      object.visuals.length ? section("Visuals", fields([["Colour", this.#colour(object)]])) : null,
+      object.visuals.length ? section("Surface", fields([["Colour", this.#colour(object)], ["Material", this.#material(object)]])) : null,
     ];
+  }
+
+  #material(object) {
+    const select = h("select", { disabled: !this.#app.link.mayEdit, "aria-label": "Material", title: "Sets colour and friction; the mass stays" }, h("option", { value: "" }, "choose…"));
+    this.#app.link.call("window.get_materials", [], "properties").then(
+      (materials) => {
+        select.append(...Object.keys(materials).map((value) => h("option", { value }, value)));
+        select.onchange = () => {
+          this.#app.editing.material(object, select.value, materials[select.value]);
+          select.value = "";
+          select.blur(); // the keys are those of the window again
+        };
+      },
+      () => (select.disabled = true),
+    );
+    return select;
   }
 
   #colour(object) {

@@ -1,7 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Screenshots, and bags of topics.
+// Screenshots, videos, recorded runs, and bags of topics.
 import { h } from "../dom.js";
 import { Poll, download, stamp } from "../poll.js";
+import { LiveVideo } from "../video/live.js";
+
+/// The button that records what the view shows.
+function videoPart(app) {
+  const title = "Record what the view shows, with all turns of the camera";
+  const toggle = h("button", { title }, "Record a video");
+  const end = async () => {
+    const file = await video.end();
+    download(`${app.scene.info?.scene ?? "scene"}_${stamp()}.webm`, file);
+  };
+  const video = new LiveVideo(app.view, () => toggle.click());
+  toggle.onclick = async () => {
+    toggle.disabled = true;
+    try {
+      if (video.runs) await end();
+      else await video.begin();
+    } catch (error) {
+      app.notify(error.message, "error");
+    }
+    toggle.disabled = false;
+    toggle.textContent = video.runs ? "End the video" : "Record a video";
+    toggle.classList.toggle("recording", video.runs);
+  };
+  return toggle;
+}
+
+/// The buttons that play recorded runs back.
+function playbackPart(app) {
+  return h(
+    "div.bag",
+    h("h3", "Runs"),
+    h("button", { title: "L", onclick: () => app.toolbar.togglePlayback() }, "Play the last run back"),
+    h("button", { onclick: () => app.files.ask() }, "Open a saved run…"),
+    h("p.hint", "This page records the last five runs while it is open. “Save run” and “Video” are below the view during a playback."),
+  );
+}
 
 export const record = {
   id: "record",
@@ -48,7 +84,7 @@ export const record = {
       state,
     );
     app.link.on("scene", ({ ros }) => (bag.hidden = !ros));
-    return h("div.record", shot, bag);
+    return h("div.record", shot, videoPart(app), playbackPart(app), bag);
   },
   show() {
     this.poll.start();

@@ -32,18 +32,23 @@ export class Series {
     this.values = [];
   }
 
-  /// The values of the last `seconds` before `end`: [times, values].
+  /// The values of the last `seconds` until `end`: [times, values].
   part(end, seconds) {
-    let from = 0;
-    if (Number.isFinite(seconds)) {
-      let high = this.times.length;
-      while (from < high) {
-        const middle = (from + high) >> 1;
-        if (this.times[middle] < end - seconds) from = middle + 1;
-        else high = middle;
-      }
+    const from = this.#place((time) => time < end - seconds);
+    const to = this.#place((time) => time <= end);
+    return [this.times.slice(from, to), this.values.slice(from, to)];
+  }
+
+  /// How many times, from the first one on, fulfil a condition.
+  #place(holds) {
+    let low = 0;
+    let high = this.times.length;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (holds(this.times[middle])) low = middle + 1;
+      else high = middle;
     }
-    return [this.times.slice(from), this.values.slice(from)];
+    return low;
   }
 }
 

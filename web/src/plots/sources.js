@@ -3,7 +3,8 @@
 //   title               its name in the menu
 //   choices(app)        resolves to { label, options: [{ value, label }] } lists, one after the other; each may depend on
 //                       the values chosen before: choices(app, chosen) returns the next list or null
-//   begin(app, chosen)  starts to add values; resolves to { label, series: [{ add }], end() }; see plots.js
+//   begin(app, chosen, add)  calls add(time, value) from now on; resolves to { label, end() }
+//   replay(app, chosen, run, add)  adds the values of a recorded run (optional)
 import { Matrix4, Quaternion, Vector3 } from "three";
 
 import { Poll } from "../poll.js";
@@ -39,7 +40,34 @@ const joint = {
     });
     return { label: `${path} position`, end };
   },
+  replay(app, [path], run, add) {
+    const object = app.scene.byPath(path);
+    for (const frame of object ? run.frames : []) {
+      const position = run.joint(object.handle, frame);
+      if (position !== undefined) add(frame.time, position);
+    }
+  },
 };
+
+const matrix = new Matrix4();
+const place = new Vector3();
+const turn = new Quaternion();
+
+/// Returns a function of a time and a matrix that adds the value of this index in POSE.
+function poseValues(index, add) {
+  let before = null;
+  return (time, matrix) => {
+    matrix.decompose(place, turn, new Vector3());
+    if (index === 6) {
+      const dt = before ? time - before.time : 0;
+      if (dt > 0) add(time, place.distanceTo(before.place) / dt);
+      if (dt !== 0 || !before) before = { time, place: place.clone() };
+      return;
+    }
+    const values = index < 3 ? place.toArray() : rollPitchYaw(turn.toArray());
+    add(time, values[index % 3]);
+  };
+}
 
 const pose = {
   title: "Pose and speed",
@@ -48,26 +76,19 @@ const pose = {
     return chosen.length === 1 ? { label: "Value", options: POSE.map((label, value) => ({ value, label })) } : null;
   },
   async begin(app, [path, index], add) {
-    let before = null;
-    const matrix = new Matrix4();
-    const place = new Vector3();
-    const turn = new Quaternion();
+    const take = poseValues(Number(index), add);
     const end = app.link.on("frame", (frame) => {
       const object = app.scene.byPath(path);
-      if (!object || frame.revision !== app.scene.revision) return;
-      if (Number(index) === 6) {
-        const link = app.scene.objects.get(object.canonical_link) ?? object;
-        const [x, y, z] = app.scene.pose(link);
-        const dt = before ? frame.time - before.time : 0;
-        if (dt > 0) add(frame.time, Math.hypot(x - before.x, y - before.y, z - before.z) / dt);
-        if (dt !== 0 || !before) before = { time: frame.time, x, y, z };
-        return;
-      }
-      app.view.matrixOf(object, matrix).decompose(place, turn, new Vector3());
-      const values = index < 3 ? place.toArray() : rollPitchYaw(turn.toArray());
-      add(frame.time, values[index % 3]);
+      if (object && frame.revision === app.scene.revision) take(frame.time, app.view.poses.latest(object, matrix));
     });
     return { label: `${path} ${POSE[index]}`, end };
+  },
+  replay(app, [path, index], run, add) {
+    const object = app.scene.byPath(path);
+    const take = poseValues(Number(index), add);
+    for (const { time } of object ? run.frames : []) {
+      take(time, app.view.poses.matrix(object, matrix, (link) => run.pose(link, time)));
+    }
   },
 };
 

@@ -90,14 +90,16 @@ export class Bodies {
     this.#rebuildChanged();
   }
 
-  /// Moves all instances to the poses of their links; `poseOf(link)` returns them.
+  /// Moves all instances to the poses of their links; `poseOf(link)` returns them, null hides a link.
   update(poseOf, all = false) {
     for (const [handle, parts] of this.#byLink) {
-      const link = this.#app.scene.objects.get(handle);
+      const link = parts[0]?.link;
       if (!link || (!all && !this.#app.scene.linkIndex.has(handle) && this.matrices.has(handle))) continue;
       let matrix = this.matrices.get(handle);
       if (!matrix) this.matrices.set(handle, (matrix = new Matrix4()));
-      poseMatrix(poseOf(link), matrix);
+      const pose = poseOf(link);
+      if (pose) poseMatrix(pose, matrix);
+      else matrix.makeScale(0, 0, 0);
       for (const part of parts) {
         if (part.place === undefined || !part.batch.mesh) continue;
         part.batch.mesh.setMatrixAt(part.place, this.#world.multiplyMatrices(matrix, part.local));

@@ -31,6 +31,8 @@ export class Gizmo {
     this.#controls.addEventListener("change", () => view.invalidate());
     app.selection.on("changed", () => this.#attach());
     app.link.on("hello", () => this.#attach());
+    app.playback.on("begin", () => this.#attach());
+    app.playback.on("end", () => this.#attach());
     this.#watchPull(view);
     this.setSnapping(this.snapping);
   }
@@ -63,9 +65,13 @@ export class Gizmo {
     this.#holder.updateMatrixWorld();
   }
 
+  get #mayEdit() {
+    return this.#app.link.mayEdit && !this.#app.playback.run;
+  }
+
   #attach() {
     const { object } = this.#app.selection;
-    const movable = object && ["model", "link"].includes(object.kind) && this.#app.link.mayEdit;
+    const movable = object && ["model", "link"].includes(object.kind) && this.#mayEdit;
     if (movable && (this.mode === "move" || this.mode === "turn")) {
       this.#controls.attach(this.#holder);
       this.helper.visible = true;
@@ -114,7 +120,7 @@ export class Gizmo {
     canvas.addEventListener(
       "pointerdown",
       (event) => {
-        if (event.button !== 0 || !(this.mode === "pull" || event.ctrlKey) || !this.#app.link.mayEdit) return;
+        if (event.button !== 0 || !(this.mode === "pull" || event.ctrlKey) || !this.#mayEdit) return;
         const hit = view.picker.pick(event.clientX, event.clientY);
         if (!hit || hit.link.static) return;
         event.stopImmediatePropagation();

@@ -11,12 +11,31 @@ const NORMAL_BIAS = 2.5; // texels
 export class Lights {
   group = new Group();
   #suns = [];
+  #carried = []; // those of links
 
-  set(environment, shadows) {
+  /// Shows the lights of the world and those of links.
+  set(environment, links, shadows) {
     this.group.clear();
     this.#suns = [];
+    this.#carried = [];
     this.group.add(new AmbientLight(new Color(...environment.ambient), Math.PI));
     for (const light of environment.lights) this.#add(light, shadows && environment.shadows);
+    for (const link of links) {
+      for (const description of link.lights) {
+        this.#carried.push({ link, description, ...this.#add(description, shadows && environment.shadows) });
+      }
+    }
+  }
+
+  /// Moves the lights of links; `matrixOf(link)` returns where links are.
+  place(matrixOf) {
+    for (const { link, description, light, sun } of this.#carried) {
+      const matrix = matrixOf(link);
+      const direction = new Vector3(...description.direction).transformDirection(matrix);
+      if (sun) sun.direction.copy(direction);
+      else light.position.set(...description.position).applyMatrix4(matrix);
+      if (light.target && !sun) light.target.position.copy(light.position).add(direction);
+    }
   }
 
   /// Keeps the shadows around a point.
@@ -38,9 +57,11 @@ export class Lights {
   #add(description, shadows) {
     const colour = new Color(...description.diffuse);
     let light;
+    let sun = null;
     if (description.kind === "directional") {
       light = new DirectionalLight(colour, Math.PI);
-      this.#suns.push({ light, direction: new Vector3(...description.direction).normalize() });
+      sun = { light, direction: new Vector3(...description.direction).normalize() };
+      this.#suns.push(sun);
     } else if (description.kind === "point") {
       light = new PointLight(colour, Math.PI, description.range, 1);
       light.position.set(...description.position);
@@ -57,5 +78,6 @@ export class Lights {
     }
     this.group.add(light);
     if (light.target) this.group.add(light.target);
+    return { light, sun };
   }
 }

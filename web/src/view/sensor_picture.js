@@ -14,6 +14,7 @@ export function pictureFrom(view, sensor) {
   const shown = view.scene3d.children.map((each) => each.visible);
   for (const each of view.scene3d.children) each.visible = each === view.world || each === view.lights.group;
   view.bodies.update((link) => view.poses.of(link));
+  view.lights.place((link) => view.matrixOf(link));
   view.lights.follow(camera.position, 10);
   view.renderer.shadowMap.needsUpdate = true;
   view.renderer.setRenderTarget(target);

@@ -35,7 +35,7 @@ Object3D.DEFAULT_UP.set(0, 0, 1);
 /// Emits "draw" before and "drawn" after each picture, and "options" when an overlay is switched or an object is followed.
 export class View extends Emitter {
   element = h("div.view");
-  overlays = []; // { id, title, key, on, layer }
+  overlays = []; // { id, title, key, on, live, layer }
   shadows = localStorage.getItem("shadows") !== "no";
   #app;
   #dirty = true;
@@ -71,6 +71,9 @@ export class View extends Emitter {
     app.scene.on("changed", (change) => this.#change(change));
     app.scene.on("colours", (links) => (this.#changing = this.#changing.then(() => this.bodies.recolour(links))));
     app.link.on("frame", () => this.invalidate());
+    app.playback.on("changed", () => this.invalidate());
+    app.playback.on("begin", () => this.#showPlayback(true));
+    app.playback.on("end", () => this.#showPlayback(false));
     app.selection.on("changed", () => this.invalidate());
     new ResizeObserver(() => this.#resize()).observe(this.element);
     this.renderer.setAnimationLoop(() => this.#frame());
@@ -102,7 +105,7 @@ export class View extends Emitter {
   setOverlay(id, on) {
     const overlay = this.overlays.find((each) => each.id === id);
     overlay.on = on;
-    overlay.layer.object3d.visible = on;
+    overlay.layer.object3d.visible = this.#shows(overlay);
     localStorage.setItem(`overlay-${id}`, on ? "yes" : "no");
     overlay.layer.toggle?.(on);
     this.emit("options");
@@ -119,6 +122,21 @@ export class View extends Emitter {
   /// { centre, radius } of an object's shapes in the world, of the whole scene for null.
   extent(object) {
     return extentOf(this.#app, object);
+  }
+
+  /// Draws at this size in pixels, whatever the size of the element is; null ends it.
+  setSize(size) {
+    this.#fixed = size;
+    this.renderer.setPixelRatio(size ? 1 : Math.min(window.devicePixelRatio, 2));
+    this.#resize();
+  }
+
+  #fixed = null;
+
+  /// Draws at once, and returns the canvas.
+  draw() {
+    this.#draw();
+    return this.renderer.domElement;
   }
 
   /// The picture as a PNG.
@@ -156,32 +174,48 @@ export class View extends Emitter {
   }
 
   #light() {
-    const { environment } = this.#app.scene;
+    const { environment, objects } = this.#app.scene;
     if (!environment) return;
-    this.lights.set(environment, this.shadows);
+    this.lights.set(environment, [...objects.values()].filter((object) => object.lights?.length), this.shadows);
     const background = environment.sky ? new Color(0.68, 0.82, 0.97) : new Color(...environment.background);
     this.scene3d.background = background;
     this.scene3d.fog = environment.sky ? new Fog(background, 60, 600) : null;
     this.invalidate();
   }
 
-  #addOverlay({ id, title, key, on, create }) {
+  /// A recorded run has links that the scene no longer has, and nothing of what overlays ask the simulator for.
+  #showPlayback(on) {
+    const { recorder } = this.#app;
+    if (on) this.#past = [...recorder.removed.values()];
+    const past = this.#past;
+    this.#changing = this.#changing.then(() => (on ? this.bodies.add(past) : this.bodies.remove(past)));
+    for (const overlay of this.overlays) overlay.layer.object3d.visible = this.#shows(overlay);
+    this.invalidate();
+  }
+
+  #past = [];
+
+  #shows({ on, live }) {
+    return on && !(live && this.#app.playback.run);
+  }
+
+  #addOverlay({ id, title, key, on, live, create }) {
     const layer = create(this.#app);
     const kept = localStorage.getItem(`overlay-${id}`);
-    const overlay = { id, title, key, on: kept ? kept === "yes" : on, layer };
-    layer.object3d.visible = overlay.on;
+    const overlay = { id, title, key, on: kept ? kept === "yes" : on, live, layer };
+    layer.object3d.visible = this.#shows(overlay);
     this.overlays.push(overlay);
     this.scene3d.add(layer.object3d);
     if (overlay.on) layer.toggle?.(true);
   }
 
   #resize() {
-    const { clientWidth: width, clientHeight: height } = this.element;
+    const [width, height] = this.#fixed ?? [this.element.clientWidth, this.element.clientHeight];
     this.#hidden = !width || !height;
     if (this.#hidden) return;
-    this.renderer.setSize(width, height);
+    this.renderer.setSize(width, height, false); // the canvas fills the element
     this.viewpoint.resize(width, height);
-    this.invalidate();
+    if (this.#ready) this.#draw(); // at once: the canvas is empty after a change of size
   }
 
   #frame() {
@@ -194,10 +228,11 @@ export class View extends Emitter {
   #draw() {
     this.#dirty = false;
     this.viewpoint.update();
-    this.bodies.update((link) => this.poses.of(link));
-    for (const { on, layer } of this.overlays) if (on) layer.update?.();
+    this.bodies.update((link) => this.poses.of(link), Boolean(this.#app.playback.run));
+    for (const overlay of this.overlays) if (this.#shows(overlay)) overlay.layer.update?.();
     this.gizmo.update();
     this.emit("draw");
+    this.lights.place((link) => this.matrixOf(link));
     this.lights.follow(this.viewpoint.controls.target, this.viewpoint.distance);
     this.renderer.shadowMap.needsUpdate = true;
     this.renderer.render(this.scene3d, this.camera);

@@ -94,10 +94,16 @@ def add_model(window: Window, name: str, position: list[float]) -> int:
             break
     else:
         raise LookupError(f"there is no model '{name}' in the folders of models")
-    text = file.read_text(encoding="utf-8")
-    handle: int = window.simulation.add_model(text, name=_free_name(window, name), position=position).handle
-    _note_source(window, handle, Source(text=text))
-    return handle
+    return add_text(window, file.read_text(encoding="utf-8"), free_name(window, name), position)
+
+
+def add_text(
+    window: Window, text: str, name: str, position: Sequence[float], orientation: Sequence[float] = (0, 0, 0, 1)
+) -> int:
+    """Add a model from its text, moved by a position (m) and a quaternion x, y, z, w; return its handle."""
+    model = window.simulation.add_model(text, name=name, position=position, orientation=orientation)
+    _note_source(window, int(model.handle), Source(text=text))
+    return int(model.handle)
 
 
 def grip(window: Window, link: int, point: list[float]) -> None:
@@ -141,7 +147,7 @@ def _keep(window: Window, model: int) -> ModelCopy:
 
 
 def _add(window: Window, kept: ModelCopy, position: Sequence[float], orientation: Sequence[float]) -> int:
-    name = _free_name(window, kept.copy.name)
+    name = free_name(window, kept.copy.name)
     handle: int = add_copy(window.simulation, kept.copy, name, position, orientation)
     _note_source(window, handle, kept.source)
     window.edits.colours.give(window.simulation, handle, kept.colours)
@@ -156,7 +162,7 @@ def _note_source(window: Window, model: int, source: Source) -> None:
         window.edits.originals[model] = source.original
 
 
-def _free_name(window: Window, name: str) -> str:
+def free_name(window: Window, name: str) -> str:
     """Return the name, or the name with the next free number."""
     world = window.simulation.world
     taken = {world.name(model) for model in world.models}

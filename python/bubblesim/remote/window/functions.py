@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from bubblesim.remote.window import editing, objects, panels, running, saving, scene, sensors
+from bubblesim.remote.window import building, editing, objects, panels, running, saving, scene, sensors
 from bubblesim.remote.window.window import WindowClient, window_of
 
 
@@ -24,7 +24,7 @@ def by_name(subjects: Iterable[Any]) -> dict[str, Callable[..., Any]]:
 
 
 # A file for each subject; its FUNCTIONS are what clients may call.
-FUNCTIONS = by_name((scene, running, sensors, objects, editing, saving, panels))
+FUNCTIONS = by_name((scene, running, sensors, objects, editing, building, saving, panels))
 
 
 def call(host: Any, client: WindowClient, name: str, arguments: list[Any]) -> Any:

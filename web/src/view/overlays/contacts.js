@@ -10,6 +10,7 @@ export const contacts = {
   id: "contacts",
   title: "Contact points",
   key: "k",
+  live: true,
   on: false,
   create(app) {
     const material = new PointsMaterial({ color: 0xff2e88, size: 7, sizeAttenuation: false, depthTest: false });

@@ -149,6 +149,7 @@ export const drawings = {
   id: "drawings",
   title: "Drawings of scripts",
   key: undefined,
+  live: true,
   on: true,
   create(app) {
     const object3d = new Group();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What can be drawn over the scene. An overlay is a file with an object:
 //   id, title, key   its name in the menu "Show", and its shortcut (optional)
+//   live             it shows what the simulator has now, and is left out of a playback (optional)
 //   on               whether it is shown at first
 //   create(app)      returns { object3d, update(), toggle(on) }: what is added to the picture; update is called before
 //                    each picture while it is shown, toggle when it is switched (both optional)

@@ -92,6 +92,7 @@ export const lidarPoints = {
   id: "points",
   title: "Measured points",
   key: "p",
+  live: true,
   on: false,
   create: (app) =>
     layer(app, () => new Points(new BufferGeometry(), new PointsMaterial({ color: 0xff3b30, size: 4, sizeAttenuation: false }))),
@@ -101,6 +102,7 @@ export const lidarRays = {
   id: "rays",
   title: "Measured rays",
   key: "r",
+  live: true,
   on: false,
   create: (app) =>
     layer(app, () => new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: 0xff3b30, transparent: true, opacity: 0.25 }))),

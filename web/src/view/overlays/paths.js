@@ -11,6 +11,7 @@ export const paths = {
   id: "paths",
   title: "Path driven",
   key: "t",
+  live: true,
   on: true,
   create(app) {
     const group = new Group();

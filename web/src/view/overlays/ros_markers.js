@@ -114,6 +114,7 @@ function dispose(group) {
 export const rosMarkers = {
   id: "ros_markers",
   title: "Markers of ROS nodes",
+  live: true,
   on: false,
   create(app) {
     const object3d = new Group();

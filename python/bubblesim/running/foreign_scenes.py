@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the reader of CoppeliaSim's files for the commands."""
+"""Runs the reader of CoppeliaSim's files."""
 
 from __future__ import annotations
 
