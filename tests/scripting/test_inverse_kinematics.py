@@ -93,6 +93,31 @@ def test_reachable_poses_of_a_six_axis_arm_are_found() -> None:
     assert reached >= 0.99 * count
 
 
+def test_a_six_axis_arm_is_solved_within_the_limits_of_its_joints() -> None:
+    arm, random = Arm(UR5), np.random.default_rng(2)
+    for joint in arm.joints:
+        joint.cyclic, joint.low, joint.high = False, -1.5, 2.5
+    for _ in range(20):
+        goal = arm.pose_at(random.uniform(-1.5, 2.5, 6))
+        arm.environment.set_pose(arm.target.handle, goal)
+        start = [0.1, -0.5, 0.7, 0.2, 0.5, 0.1]
+        arm.pose_at(start)
+        found = arm.solver.search(arm.group, arm.joints, 5.0, lambda config: True, random)
+        assert [joint.position for joint in arm.joints] == start
+        assert len(found) == 1
+        assert all(-1.5 <= angle <= 2.5 for angle in found[0])
+        assert math.dist(arm.pose_at(found[0])[:3], goal[:3]) <= 1e-5
+
+
+def test_a_target_that_the_arm_itself_moves_is_solved_by_steps() -> None:
+    arm, random = Arm([(1.0, 0, 0), (1.0, 0, 0)], constraints=7), np.random.default_rng(1)
+    arm.target.parent = arm.joints[0].handle  # on the first link, 1 m beside the shoulder
+    arm.environment.structure += 1
+    arm.target.pose = [1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+    found = arm.solver.search(arm.group, arm.joints, 2.0, lambda config: True, random)
+    assert math.sin(found[0][1]) == pytest.approx(1.0, abs=1e-4)  # the elbow alone counts
+
+
 def test_limits_of_joints_are_kept() -> None:
     arm = Arm([(1.0, 0, 0), (1.0, 0, 0)], constraints=3)
     for joint in arm.joints:

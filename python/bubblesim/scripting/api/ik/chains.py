@@ -12,6 +12,8 @@ from bubblesim.geometry import poses
 from bubblesim.scripting.api.ik.environment import IK, PRISMATIC, WORLD, Environment, IkObject
 
 Array = npt.NDArray[np.float64]
+_PRECISION = 1e-7  # m, and a tenth of it for rad
+_SEARCH_ITERATIONS = 40
 
 
 def load_kdl() -> Any:
@@ -63,6 +65,28 @@ class Chain:
         self._columns = kdl.Jacobian(count) if count else None
         self._forward = kdl.ChainFkSolverPos_recursive(chain)
         self._derivative = kdl.ChainJntToJacSolver(chain)
+        self._kdl = kdl
+        self._searches: dict[bool, Any] = {}  # Levenberg and Marquardt's, by whether the orientation counts
+
+    @property
+    def has_dependent_joints(self) -> bool:
+        """Return whether joints of it follow others."""
+        return any(joint.dependency is not None for joint, _ in self._rigid)
+
+    def find(self, goal: list[float], *, with_orientation: bool) -> list[float] | None:
+        """Return positions of the joints, from where they are, with which the tip reaches a pose in the frame of the
+        base; None if the search of KDL finds none. Limits are not considered."""
+        search = self._searches.get(with_orientation)
+        if search is None:
+            weights = np.array([1.0, 1.0, 1.0, *([0.1] * 3 if with_orientation else [0.0] * 3)])
+            search = self._kdl.ChainIkSolverPos_LMA(self._chain, weights, _PRECISION, _SEARCH_ITERATIONS, 1e-15)
+            self._searches[with_orientation] = search
+        for number, joint in enumerate(self.joints):
+            self._angles[number] = joint.position
+        found = self._kdl.JntArray(len(self.joints))
+        if search.CartToJnt(self._angles, _frame(self._kdl, goal), found) < 0:
+            return None
+        return [float(found[number]) for number in range(len(self.joints))]
 
     def is_current(self) -> bool:
         """Return whether no passive joint has moved since."""
@@ -77,13 +101,11 @@ class Chain:
         place, turn = self._pose.p, self._pose.M
         position = np.array([place[0], place[1], place[2]])
         rotation = np.array([[turn[i, j] for j in range(3)] for i in range(3)])
-        jacobian = np.zeros((6, len(self.joints)))
-        if self._columns is not None:
-            self._derivative.JntToJac(self._angles, self._columns)
-            for j in range(len(self.joints)):
-                for i in range(6):
-                    jacobian[i, j] = self._columns[i, j]
-        return position, rotation, jacobian
+        if self._columns is None:
+            return position, rotation, np.zeros((6, 0))
+        self._derivative.JntToJac(self._angles, self._columns)
+        columns, count = self._columns, range(len(self.joints))
+        return position, rotation, np.array([[columns[i, j] for j in count] for i in range(6)])
 
 
 def _frame(kdl: Any, pose: list[float]) -> Any:

@@ -7,23 +7,28 @@ The damping of a search for configurations adapts by Levenberg's and Marquardt's
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from bubblesim.geometry import rotations
+from bubblesim.geometry import poses, rotations
 from bubblesim.scripting.api.ik.chains import Array, Chain
 from bubblesim.scripting.api.ik.environment import (
+    ALL,
     ALPHA_BETA,
     GAMMA,
+    PRISMATIC,
     WORLD,
     Element,
     Environment,
     Group,
     IkObject,
     X,
+    Y,
+    Z,
 )
 
 NOT_PERFORMED, SUCCESS, FAIL = 0, 1, 2
@@ -31,6 +36,7 @@ PSEUDO_INVERSE, DAMPED, TRANSPOSE, UNDAMPED = 0, 1, 2, 3
 _IGNORE_STEPS, _RESTORE_LINEAR, _RESTORE_ANGULAR = 2, 4, 8
 NOT_INVERTIBLE, NOT_WITHIN_TOLERANCE = 2, 16  # bits of the reason
 _SEARCH_ITERATIONS = 60
+_QUICK_STARTS = 10
 _SMALLEST = 1e-12
 
 
@@ -102,13 +108,13 @@ class Solver:
         before = [joint.position for joint in joints]
         found: list[list[float]] = []
         end = time.monotonic() + seconds
-        first = True
-        while first or (time.monotonic() < end and len(found) < most):
-            if not first:
+        starts = 0
+        while not starts or (time.monotonic() < end and len(found) < most):
+            if starts:
                 for joint in joints:
                     joint.position = float(random.uniform(*_interval(joint)))
-            first = False
-            if self.converge(group):
+            starts += 1
+            if self._reach(group, joints, thorough=starts > _QUICK_STARTS):
                 config = [joint.position for joint in joints]
                 is_new = all(max(abs(a - b) for a, b in zip(config, each, strict=True)) > 1e-3 for each in found)
                 if is_new and accept(config):
@@ -116,6 +122,48 @@ class Solver:
         for joint, position in zip(joints, before, strict=True):
             joint.position = position
         return found
+
+    def _reach(self, group: Group, joints: list[IkObject], *, thorough: bool) -> bool:
+        """Move the joints from where they are until the errors of a group vanish; return whether they do.
+
+        A single tip is reached by the search of KDL, which is faster; where it leaves the limits of joints, or cannot
+        be used, by the solver here. ``thorough``: also where it finds nothing.
+        """
+        chain = self._single_chain(group, joints)
+        if chain is None:
+            return self.converge(group)
+        element = self._enabled(group)[0]
+        base = self._environment.pose(element.base, moved=True)
+        goal = poses.multiply(poses.inverse(base), self._environment.pose(self._target(element)))
+        found = chain.find(goal, with_orientation=element.constraints == ALL)
+        if found is None:
+            return thorough and self.converge(group)
+        before = [joint.position for joint in chain.joints]
+        for joint, position in zip(chain.joints, found, strict=True):
+            joint.position = _nearest_turn(joint, position)
+            if not joint.cyclic and not joint.low - 1e-9 <= joint.position <= joint.high + 1e-9:
+                for each, start in zip(chain.joints, before, strict=True):
+                    each.position = start
+                return self.converge(group)
+        _, _, _, left = self.errors(group)
+        return bool((left <= self._exact(group)).all())
+
+    def _single_chain(self, group: Group, joints: list[IkObject]) -> Chain | None:
+        """Return the chain of a group with one tip, whose position, or pose, is to be reached by the given joints in a
+        base and with a target that they do not move; None for other groups."""
+        elements = self._enabled(group)
+        if len(elements) != 1 or elements[0].constraints not in (ALL, X | Y | Z):
+            return None
+        element = elements[0]
+        chain = self._chain(element.base, element.tip)
+        if chain.has_dependent_joints or not chain.joints or any(joint not in joints for joint in chain.joints):
+            return None
+        environment = self._environment
+        frames = [self._target(element), *([element.base] if element.base != WORLD else [])]
+        for frame in frames:
+            if any(above in chain.joints for above in environment.above(frame)):
+                return None
+        return chain
 
     def converge(self, group: Group, iterations: int = _SEARCH_ITERATIONS) -> bool:
         """Move the joints from where they are until the errors of a group vanish; return whether they do."""
@@ -149,8 +197,11 @@ class Solver:
                 damping *= 8
                 if damping > 1e3:
                     break
-        exact = np.array([[min(p[0], 1e-5), min(p[1], 1e-4)] for p in (e.precision for e in self._enabled(group))])
-        return bool((left <= exact).all())
+        return bool((left <= self._exact(group)).all())
+
+    def _exact(self, group: Group) -> Array:
+        """Return the errors, m and rad, that are left where a search has succeeded."""
+        return np.array([[min(p[0], 1e-5), min(p[1], 1e-4)] for p in (e.precision for e in self._enabled(group))])
 
     def _enabled(self, group: Group) -> list[Element]:
         return [each for each in group.elements if each.is_enabled and self._target(each) >= 0]
@@ -270,6 +321,15 @@ def _free(joints: list[IkObject], direction: Array) -> list[int]:
         if not (at_low or at_high):
             kept.append(number)
     return kept or list(range(len(joints)))
+
+
+def _nearest_turn(joint: IkObject, position: float) -> float:
+    """Return the position of a revolute joint without whole turns: within half a turn, or within its limits."""
+    if joint.joint_type == PRISMATIC:
+        return position
+    if joint.cyclic:
+        return math.remainder(position, math.tau)
+    return position - math.tau * round((position - (joint.low + joint.high) / 2) / math.tau)
 
 
 def _interval(joint: IkObject) -> tuple[float, float]:
