@@ -3,6 +3,9 @@
 
 from pathlib import Path
 
+import pytest
+
+import bubblesim
 from bubblesim.scripting.api.sim.browser_models import BROWSER_MODELS
 from remote_support import RemoteNode, refusal
 
@@ -37,5 +40,18 @@ def test_a_program_for_an_arm_with_a_gripper_runs_unchanged(tmp_path: Path) -> N
             sim.step()
         assert sim.getObject("/UR5/RG2/openCloseJoint") > 0
         assert abs(sim.getJointPosition(sim.getObject("/RG2/openCloseJoint")) - 0.055) < 2e-3
-        assert max(abs(part) for part in sim.getObjectPosition(gripper, connection)) < 5e-3
+        tip, flange = sim.getObject("/RG2/attachPoint"), sim.getObjectParent(connection)
+        assert sim.getObjectPosition(tip, flange) == pytest.approx([0, 0, 0.185], abs=5e-3)
         sim.stopSimulation()
+
+
+def test_two_models_of_a_kind_are_saved_with_their_trees(tmp_path: Path) -> None:
+    with RemoteNode(tmp_path, "--speed", "max", "--remote-trusted", scene="p3dx_floor") as node:
+        sim = node.sim()
+        for x in (1, 2):
+            sim.setObjectPosition(sim.loadModel("UR5.ttm"), [x, 0, 0])
+        sim.loadModel("Walking Bill.ttm")
+        sim.saveScene(str(tmp_path / "arms.sdf"))
+    saved = bubblesim.Simulation(str(tmp_path / "arms.sdf"))
+    assert saved.object("/UR5[1]/joint/link/joint").joint_position == 0
+    assert saved.object("/UR5[1]").position[0] - saved.object("/UR5[0]").position[0] == pytest.approx(1, abs=1e-6)

@@ -16,6 +16,7 @@ from bubblesim.geometry import rotations
 from bubblesim.scene_state.scene_edits import SceneEdits
 
 _READABLE = (".sdf", ".world")
+_PLACES_OF_A_FILE = 100_000  # the numbers of places in the tree that a model has are below
 # Of a model without a world, and of the empty scene: see the loader.
 _WORLD = """\
 <?xml version="1.0"?>
@@ -55,7 +56,8 @@ def scene_text(simulation: Any, edits: SceneEdits, folder: Path) -> str:
     added = [_added(document, simulation, edits, model, elements) for model in sorted(now - own)]
     for model in own - now:
         _leave_out(elements[str(start.name(model))], str(start.name(model)))
-    for element in added:
+    for number, element in enumerate(added, start=1):
+        _renumber_places(element, number * _PLACES_OF_A_FILE)
         world.appendChild(element)
     _write_colours(document, world, here, edits)
     _write_numbers(document, world, here, edits)
@@ -178,6 +180,15 @@ def _added(
     for visual in element.getElementsByTagName("visual") if shape is not None else ():
         _set_colour(document, visual, colour)
     return element
+
+
+def _renumber_places(model: Element, offset: int) -> None:
+    """Make the places of an added model in the tree distinct from those of other models of the file."""
+    for place in model.getElementsByTagName("bubblesim:place"):
+        for number in _children(place, "id") + _children(place, "parent"):
+            text: Any = number.firstChild
+            if int(text.data) >= 0:
+                text.data = str(int(text.data) + offset)
 
 
 def _replace(document: Document, parent: Element, name: str, text: str) -> Element:

@@ -7,6 +7,7 @@ from bubblesim.geometry.rotations import heading_of, matrix
 
 PLACES = ((0.13, 0.13, 1), (-0.13, 0.13, -1), (-0.13, -0.13, 1), (0.13, -0.13, -1))  # x, y, turning
 ROTORS = tuple(RotorPlace(*place) for place in PLACES)
+BEGINNING = [0, 0, 0.51]  # m, of the target
 AIRFRAME = Airframe(mass=0.5, inertia=(0.0043, 0.0043, 0.0075), max_speed=600.0, rotors=ROTORS)
 
 
@@ -14,6 +15,8 @@ def sysCall_init():
     self.body, self.target = sim.getObject('.'), sim.getObject('./target')
     self.propellers = [sim.getObject(f'./propeller[{i}]/respondable') for i in range(4)]
     self.control = MulticopterControl(AIRFRAME)
+    if sim.getObjectPosition(self.target) == BEGINNING:  # the robot may have been placed elsewhere
+        sim.setObjectPose(self.target, sim.getObjectPose(self.body))
 
 
 def sysCall_dyn(data):

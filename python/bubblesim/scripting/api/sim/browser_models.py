@@ -13,6 +13,8 @@ from bubblesim.messages.names import did_you_mean, nearest_names
 
 PAGE = "docs/models_of_the_browser.md"
 
+_ABOVE = 0.002  # m: what cameras see of a floor is above the floor of the scene
+
 
 @dataclass(frozen=True)
 class BrowserModel:
@@ -50,7 +52,8 @@ class BrowserBox:
         box = f"<geometry><box><size>{' '.join(map(repr, self.size))}</size></box></geometry>"
         return (
             f'<sdf version="1.11"><model name="{self.object}"><static>true</static><pose>0 0 {self.centre} 0 0 0</pose>'
-            f'<link name="link"><collision name="box">{box}</collision><visual name="box">{box}'
+            f'<link name="link"><collision name="box">{box}</collision>'
+            f'<visual name="box"><pose>0 0 {_ABOVE} 0 0 0</pose>{box}'
             f"<material><diffuse>{self.colour} 1</diffuse></material></visual></link></model></sdf>"
         )
 
