@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The robots' launch files: all frames from map to the last wheel and sensor exist."""
 
+import re
 import signal
 import subprocess
 import sys
@@ -8,8 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from bubblesim.running.launch_arguments import unknown_argument
 from node_support import Node
-from ros_support import DEADLINE, SUPPORT, RosCore, start, stop_launch, wait_until
+from ros_support import DEADLINE, REPOSITORY, SUPPORT, RosCore, start, stop_launch, wait_until
 
 # Heights of the frames from the robots' dimensions, metres.
 FRAMES = {
@@ -117,6 +119,36 @@ def test_a_simulator_of_any_name_is_found_before_a_launch(roscore: RosCore, tmp_
     assert run.returncode == 1
     assert "error: a simulator runs already as node /mine at" in run.stderr
     assert "rosnode kill /mine" in run.stderr
+
+
+@pytest.mark.parametrize(
+    ("argument", "answer"),
+    [
+        ("contoller:=false", "error: tricycle.launch has no argument contoller; did you mean controller?"),
+        ("scene:=ball", "error: tricycle.launch has no argument scene; it has controller, gazebo_compat, map_to_odom"),
+    ],
+)
+def test_an_argument_with_a_typo_is_refused(roscore: RosCore, argument: str, answer: str) -> None:
+    run = subprocess.run(
+        ["roslaunch", "bubblesim", "tricycle.launch", argument],
+        env=roscore.env,
+        capture_output=True,
+        text=True,
+        timeout=3 * DEADLINE,
+        check=False,
+    )
+    assert run.returncode != 0
+    assert answer in run.stderr
+
+
+@pytest.mark.parametrize("file", ["bubblerob", "pioneer", "pioneer_slam", "quadcopter", "tricycle", "tricycle_cmd_vel"])
+def test_all_arguments_of_launch_files_are_known(file: str) -> None:
+    launch = REPOSITORY / "launch"
+    command = ["roslaunch", "--ros-args", launch / f"{file}.launch"]
+    shown = subprocess.run(command, capture_output=True, text=True, timeout=DEADLINE, check=True)
+    names = re.findall(r"^  (\w+)", shown.stdout, re.MULTILINE)
+    assert "seed" in names
+    assert unknown_argument(["bubblesim", f"{file}.launch", *(f"{name}:=1" for name in names)], launch) is None
 
 
 def test_programs_that_were_not_built_are_named_with_the_cure() -> None:
