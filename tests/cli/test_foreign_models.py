@@ -123,3 +123,10 @@ function sysCall_init()
 end
 """
     assert "1 2 3\n" in output_of(write(tmp_path / "scene.ttt", FLOOR, BOX, mark, script(2, frees)))
+
+
+def test_a_model_that_reaches_below_its_origin_stands_on_a_floor_there(tmp_path: Path) -> None:
+    sunk = thing("SHP", 2, -1, "Box", cuboid((0.2, 0.2, 0.2), 2), (1, 0, 0, 0, 0, 0, -0.5))
+    simulation = bubblesim.Simulation(str(write(tmp_path / "box.ttm", sunk, is_scene=False)))
+    simulation.step(20)
+    assert simulation.object("/Box").position[2] == pytest.approx(-0.5, abs=2e-3)

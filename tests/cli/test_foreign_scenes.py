@@ -5,6 +5,7 @@ import functools
 import math
 import os
 import pty
+import struct
 import subprocess
 from pathlib import Path
 
@@ -14,7 +15,7 @@ import bubblesim
 from cli_support import bubblesim as program
 from node_support import run_sim
 from ros_support import DEADLINE, REPOSITORY, built
-from ttt_files import BOX, FLOOR, LUA, PYTHON, arm, cuboid, script, thing, write
+from ttt_files import BOX, FLOOR, LUA, PYTHON, arm, cuboid, item, script, text, thing, write
 
 
 @pytest.fixture(autouse=True)
@@ -74,6 +75,17 @@ def test_what_convert_writes_is_the_same_scene(tmp_path: Path) -> None:
         simulation.step(20)
         hashes.append(simulation.state_hash())
     assert hashes[0] == hashes[1]
+
+
+def test_bodies_are_damped_by_the_material_for_the_engine_of_the_file(tmp_path: Path) -> None:
+    bullet = item("_uN", struct.pack("<2i5d", 5, 0, 0, 1, 1, 0.5, 0.5))  # it takes half of a velocity in a second
+    box = thing("SHP", 2, -1, "Box", cuboid((0.2, 0.2, 0.2), 2) + item("Mat", bullet + b"EOO"))
+    simulation = bubblesim.Simulation(str(write(tmp_path / "box.ttt", box)))
+    simulation.step(20)
+    rate = math.log(2)  # 1/s: v' = -g - rate v
+    assert simulation.world.velocity(simulation.object("/Box").handle)[0][2] == pytest.approx(
+        -9.81 / rate * (1 - math.exp(-rate)), rel=5e-3
+    )
 
 
 def test_convert_leaves_folders_with_files_alone(tmp_path: Path) -> None:
@@ -145,6 +157,55 @@ def test_without_a_home_the_error_names_what_to_set(tmp_path: Path) -> None:
 def test_check_takes_it(tmp_path: Path) -> None:
     file = write(tmp_path / "box.ttt", FLOOR, BOX)
     assert program("check", str(file)).stdout == f"{file}: fine\n"
+
+
+VISION = """sim = require'sim'
+function sysCall_init() end
+function sysCall_vision(data)
+  return {trigger = true, packedPackets = {sim.packFloatTable({7, 8})}}
+end
+"""
+READS = """sim = require'sim'
+function sysCall_init() camera = sim.getObject('/Camera') end
+function sysCall_sensing()
+  local result, _, packet = sim.readVisionSensor(camera)
+  if packet then print('packet', packet[1], packet[2]) end
+end
+"""
+
+
+def test_customization_scripts_that_filter_an_image_run(tmp_path: Path) -> None:
+    camera = thing("RSN", 3, -1, "Camera", item("Res", struct.pack("<2i", 2, 2)))
+    filters = script(3, VISION, kind=6)
+    file = write(tmp_path / "camera.ttt", FLOOR, BOX, camera, filters, script(2, READS), script(1, "error()", kind=6))
+    run = run_sim(file, "--no-ros", "--speed", "max", "--until", "0.2")
+    assert "packet\t7" in run.stdout or "packet 7" in run.stdout
+    assert "1 x customization script: not run (Floor)" in run.stderr
+
+
+FAST = ("--no-ros", "--speed", "max", "--until", "0.1")
+OLD_PATH = """sim = require'sim'
+function sysCall_init()
+  local path = sim.getObjectHandle('Path')
+  print(string.format('length %.2f', sim.getPathLength(path)))
+  print(string.format('middle %.2f %.2f %.2f', unpack(sim.getPositionOnPath(path, 0.5))))
+  print('data '..sim.readCustomDataBlock(path, 'mine'))
+end
+"""
+
+
+def test_scripts_follow_paths_and_read_data_of_old_files(tmp_path: Path) -> None:
+    points = b"".join(
+        item("Pat", item("At2", struct.pack("<9fif", x, 0, 0, 1, 0, 0, 0, 0.5, 0.5, 1, 1)) + b"EOO") for x in (0, 2, 4)
+    )
+    block = struct.pack("<2i", 8 + 5 + 3, 5) + b"mine\0abc"
+    data = item("Cod", item("Dat", struct.pack("<2i", 356248756, len(block)) + block) + b"EOO")
+    common = item("Ids", struct.pack("<2i", 3, -1)) + item("Cfq", struct.pack("<7f", 1, 0, 0, 0, 0, 1, 2))
+    path = item("PAT", common + item("Nme", text("Path")) + data + b"NXT" + item("Ntp", points + b"EOO") + b"EOO")
+    run = run_sim(write(tmp_path / "path.ttt", BOX, path, script(2, OLD_PATH)), *FAST)
+    assert "length 4.00" in run.stdout
+    assert "middle 2.00 1.00 2.00" in run.stdout
+    assert "data abc" in run.stdout
 
 
 def test_lua_scripts_run_and_are_named(tmp_path: Path) -> None:

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <set>
 
+#include "load/ttt/main_script.hpp"
 #include "load/ttt/names.hpp"
+#include "load/ttt/script_files.hpp"
 #include "load/ttt/write_joints.hpp"
 
 namespace bubblesim::ttt {
@@ -13,7 +15,6 @@ namespace {
 std::string object_kind(const Object& object) {
   static const std::map<std::string, std::string> kinds = {
       {"GRH", "graph: not shown"},
-      {"PAT", "old path: scripts cannot follow it"},
       {"MIL", "mill: no effect"},
       {"MIR", "mirror: not shown"},
       {"OCT", "octree: not shown, nothing collides with it"},
@@ -36,6 +37,21 @@ void add_joints(const SceneFile& file, const Structure& structure, LeftOut& left
       left_out.add("joint with a target velocity that is left over from a run: it starts at rest", alias);
     }
   }
+}
+
+/// A main script of the scene's own, unless it does what the default one does.
+void add_main_script(const Script& script, LeftOut& left_out) {
+  constexpr std::size_t kShown = 6;
+  const std::set<std::string> calls = calls_beside_phases(script.text);
+  if (calls.empty() && !script.is_python) return;
+  std::string names;
+  std::size_t shown = 0;
+  for (const std::string& call : calls) {
+    if (shown++ == kShown) break;
+    names += (names.empty() ? "" : ", ") + call;
+  }
+  if (calls.size() > kShown) names += " ...";
+  left_out.add("main script: the default phases run" + (names.empty() ? "" : ", without its calls of " + names), "");
 }
 
 }  // namespace
@@ -76,10 +92,9 @@ LeftOut left_out_of(const SceneFile& file, const Structure& structure) {
   for (const Script& script : file.scripts) {
     const int owner = structure.place(script.object);
     const std::string alias = owner == kNone ? "" : file.objects[static_cast<std::size_t>(owner)].alias;
-    if (script.kind == ScriptKind::kMain && !script.is_default_main) {
-      left_out.add("main script: the default phases run", "");
-    }
-    if (script.kind == ScriptKind::kCustomization) left_out.add("customization script: not run", alias);
+    if (script.kind == ScriptKind::kMain && !script.is_default_main) add_main_script(script, left_out);
+    if (script.kind == ScriptKind::kCustomization && !is_run(script))
+      left_out.add("customization script: not run", alias);
     if (script.kind == ScriptKind::kChild && script.is_disabled)
       left_out.add("script that is disabled: not run", alias);
   }

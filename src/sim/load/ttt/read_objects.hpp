@@ -23,11 +23,14 @@ VisionSensor read_vision_sensor(const TagList& list);
 ForceSensor read_force_sensor(const TagList& list);
 Dummy read_dummy(const TagList& list);
 Lamp read_lamp(const TagList& list);
+Path read_path(const TagList& list);
 
 /// The list of a script, at the top level or in an object.
 Script read_script(const TagList& list);
 /// The parameters in an item `Par`.
 std::vector<Parameter> read_parameters(const TagList& list);
+/// The custom data of an object, by name; old data have a number instead, such as `#1234`. Takes its first list.
+std::map<std::string, std::string> read_custom_data(const TagList& common);
 /// The list GRP.
 Collection read_collection(const TagList& list);
 /// A script's text as it is read by people.

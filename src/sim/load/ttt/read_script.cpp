@@ -82,7 +82,9 @@ Script read_script(const TagList& list) {
   const unsigned bits = list.u8("Va2").value_or(8);
   script.is_threaded = (bits & 1U) != 0;
   script.is_disabled = (bits & 2U) != 0;
-  script.is_default_main = script.kind == ScriptKind::kMain && (bits & 8U) == 0;
+  constexpr std::size_t kLongestLoader = 400;  // bytes of scripts that load the default main script by its name
+  const bool is_default = (bits & 8U) == 0 || script.text.size() < kLongestLoader;
+  script.is_default_main = script.kind == ScriptKind::kMain && is_default;
   const auto language = list.text("Lne");
   script.parameters = read_parameters(list.list("Prm"));
   script.is_python = language ? *language == "python" : names_python(script.text);

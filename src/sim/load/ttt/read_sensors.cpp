@@ -24,6 +24,21 @@ VolumeKind volume_of_type(int type) {
   }
 }
 
+/// Whether one of the filters that are enabled does more than pass the image on: from the view, to the output.
+bool changes_image(const TagList& filters) {
+  constexpr int kFromView = 1;
+  constexpr int kToOutput = 4;
+  for (const Item& item : filters.items()) {
+    if (item.tag != "Sfr") continue;
+    Bytes bytes = item.content;
+    const TagList filter(bytes);
+    const int kind = filter.integer("Sft", kFromView);
+    const bool is_enabled = (filter.u8("Sfe").value_or(1) & 1U) != 0;
+    if (is_enabled && kind != kFromView && kind != kToOutput) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 ProximitySensor read_proximity_sensor(const TagList& list) {
@@ -78,7 +93,7 @@ VisionSensor read_vision_sensor(const TagList& list) {
     });
   }
   sensor.is_perspective = (list.u8("Va3").value_or(list.u8("Var").value_or(1)) & 1U) != 0;
-  sensor.has_filters = list.has("Cfr");
+  sensor.has_filters = changes_image(list.list("Cfr"));
   return sensor;
 }
 

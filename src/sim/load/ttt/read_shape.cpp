@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "load/ttt/read_objects.hpp"
+#include "load/ttt/texture_projection.hpp"
 
 namespace bubblesim::ttt {
 namespace {
@@ -177,12 +178,25 @@ class ShapeReader {
   }
 
   static void read_texture(const TagList& texture, Part& part) {
-    auto bytes = texture.item(texture.has("_ob") ? "_ob" : "Tob");
+    constexpr unsigned kDecal = 1;
+    const bool are_doubles = texture.has("_ob");
+    auto bytes = texture.item(are_doubles ? "_ob" : "Tob");
     if (!bytes) return;
     part.texture = bytes->i32();
+    part.is_decal = static_cast<unsigned>(texture.integer("Apm", 0)) == kDecal;
     auto coordinates = texture.item("Ftc");
-    if (!coordinates) return;
-    const std::size_t corners = coordinates->left() / (2 * sizeof(float));
+    const std::size_t corners = coordinates ? coordinates->left() / (2 * sizeof(float)) : 0;
+    if (corners == 0) {
+      Projection projection;
+      projection.mode = static_cast<ProjectionMode>(bytes->i32());
+      const std::vector<double> size = bytes->numbers(2, are_doubles);
+      projection.size = {size[0], size[1]};
+      projection.frame = texture.rotation_first("Trc", "_rc").value_or(Pose());
+      const unsigned bits = texture.u8("Bs2").value_or(0);
+      projection.repeats = {(bits & 4U) != 0, (bits & 8U) != 0};
+      part.texture_coordinates = projected(part, projection);
+      return;
+    }
     if (corners != 3 * part.triangles->size()) return;  // of another mesh: the colour remains
     std::vector<std::array<float, 2>> read(corners);
     for (auto& corner : read) {

@@ -67,15 +67,7 @@ Object read_common(const TagList& list, std::string_view tag, std::size_t offset
   object.layers = list.u16("Lar").value_or(0xff);
   object.order = list.integer("Cor", -1);
   object.parameters = read_parameters(list.list("Lsp"));
-  const TagList data = list.list("Cda");
-  for (const Item& item : data.items()) {
-    if (item.tag != "Cdt") continue;
-    note_damage(list.damage(), [&] {
-      Bytes bytes = item.content;
-      const std::string name = bytes.text();
-      object.data[name] = std::string(bytes.take(bytes.count(1)));
-    });
-  }
+  object.data = read_custom_data(list);
   return object;
 }
 
@@ -178,6 +170,7 @@ class FileReader {
     if (tag == "FSE") object.details = read_force_sensor(own);
     if (tag == "DMY") object.details = read_dummy(own);
     if (tag == "LGT") object.details = read_lamp(own);
+    if (tag == "PAT") object.details = read_path(own);
     if (tag == "SCT") {
       const TagList list = own.list("Soo");
       Script script = read_script(list);

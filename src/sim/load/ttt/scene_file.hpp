@@ -37,7 +37,8 @@ struct Part {
   Rgb emission{0, 0, 0};
   double opacity = 1;
   int texture = -1;                                       ///< id of a texture or handle of a vision sensor; -1: none
-  std::vector<std::array<float, 2>> texture_coordinates;  ///< three a triangle, or empty
+  bool is_decal = false;                                  ///< the texture replaces the colour
+  std::vector<std::array<float, 2>> texture_coordinates;  ///< three a triangle, or empty: the texture is not shown
 };
 
 struct Shape {
@@ -101,7 +102,7 @@ struct VisionSensor {
   double far = 10;
   int columns = 32;
   int rows = 32;
-  bool has_filters = false;
+  bool has_filters = false;  ///< that change the image
 };
 
 struct ForceSensor {
@@ -123,10 +124,22 @@ struct Lamp {
   std::array<double, 3> attenuation{1, 0, 0};
 };
 
+/// A path of V4.1 and earlier: control points, in its own frame.
+struct Path {
+  struct Point {
+    Pose pose;
+    double before = 0.5;  ///< how far the curve at the point reaches to the one before, as a part of the way; 0 to 1
+    double after = 0.5;   ///< to the one after
+    int count = 1;        ///< of the points on the curve; 1: a corner
+  };
+  bool is_closed = false;
+  std::vector<Point> points;
+};
+
 /// An object of a kind that is kept only as a node of the tree.
 struct Other {};
 
-using Details = std::variant<Other, Shape, Joint, ProximitySensor, VisionSensor, ForceSensor, Dummy, Lamp>;
+using Details = std::variant<Other, Shape, Joint, ProximitySensor, VisionSensor, ForceSensor, Dummy, Lamp, Path>;
 
 /// A parameter of a script, as text.
 struct Parameter {

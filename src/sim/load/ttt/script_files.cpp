@@ -5,11 +5,24 @@
 
 namespace bubblesim::ttt {
 
+bool is_run(const Script& script) {
+  if (script.is_disabled) return false;
+  // V4 makes customization scripts of the image filters of old scenes.
+  const bool is_filter = script.text.find("function sysCall_vision") != std::string::npos;
+  return script.kind == ScriptKind::kChild || (script.kind == ScriptKind::kCustomization && is_filter);
+}
+
 std::map<int, std::string> write_scripts(const std::filesystem::path& folder, Conversion& conversion) {
   std::map<int, std::string> paths;
   UniqueNames names;
-  for (const Script& script : conversion.file.scripts) {
-    if (script.kind != ScriptKind::kChild || script.is_disabled) continue;
+  std::vector<const Script*> run;
+  for (const ScriptKind kind : {ScriptKind::kChild, ScriptKind::kCustomization}) {
+    for (const Script& script : conversion.file.scripts) {
+      if (script.kind == kind && is_run(script)) run.push_back(&script);
+    }
+  }
+  for (const Script* each : run) {
+    const Script& script = *each;
     const int object = conversion.structure.place(script.object);
     const int place = script.holder < 0 ? object : conversion.structure.place(script.holder);
     if (place == kNone) {

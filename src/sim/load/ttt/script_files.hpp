@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The child scripts of a scene as files beside it.
+// The scripts of a scene as files beside it.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,10 @@
 
 namespace bubblesim::ttt {
 
-/// Writes the child scripts that are enabled into the folder `scripts`, named after their objects. Returns their paths
+/// Whether a script runs here: child scripts, and customization scripts that filter the image of a vision sensor.
+bool is_run(const Script& script);
+
+/// Writes the scripts that run into the folder `scripts`, named after their objects. Returns their paths
 /// from the folder, by the place of the object in the file.
 std::map<int, std::string> write_scripts(const std::filesystem::path& folder, Conversion& conversion);
 

@@ -41,6 +41,8 @@ struct LinkKind {
 
 /// Adds the collisions and visuals of a shape, if it has any. `link_pose`: of the link, in the world of the file.
 void write_shape(pugi::xml_node link, int shape, const Pose& link_pose, const LinkKind& kind, Conversion& conversion);
+/// Adds the decay of the velocity of a body, by the material for the engine that the file used.
+void write_damping(pugi::xml_node link, const Shape& shape, const Settings& settings);
 /// Adds a proximity or vision sensor.
 void write_sensor(pugi::xml_node link, int sensor, const Pose& link_pose, Conversion& conversion);
 /// Adds the place of an object in the tree that scripts see, with its script.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "load/ttt/old_path.hpp"
 #include "load/ttt/write_joints.hpp"
 #include "load/ttt/write_parts.hpp"
 #include "load/ttt/xml_writer.hpp"
@@ -83,8 +84,9 @@ void write_place(pugi::xml_node element, int i, Conversion& conversion) {
     element.append_attribute("unit").set_value(plain_text(parameter.unit).c_str());
     element.text().set(plain_text(parameter.value).c_str());
   }
-  for (const auto& [name, bytes] : object.data)
-    named(place, "data", plain_text(name)).text().set(to_base64(bytes).c_str());
+  std::map<std::string, std::string> data = object.data;
+  if (const auto* path = object.as<Path>()) data.merge(data_of(*path));
+  for (const auto& [name, bytes] : data) named(place, "data", plain_text(name)).text().set(to_base64(bytes).c_str());
 }
 
 void write_frame(pugi::xml_node owner, int i, const std::string& link, const Pose& link_pose, Conversion& conversion) {

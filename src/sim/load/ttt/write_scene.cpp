@@ -10,6 +10,7 @@
 #include "load/ttt/script_files.hpp"
 #include "load/ttt/write_joints.hpp"
 #include "load/ttt/write_parts.hpp"
+#include "load/ttt/write_surroundings.hpp"
 #include "load/ttt/xml_writer.hpp"
 
 namespace bubblesim::ttt {
@@ -124,6 +125,7 @@ class ModelWriter {
     pugi::xml_node link = write_link(i, body(i).shape);
     put_pose(link, model_pose_.inverse() * at_zero(i));
     write_inertial(link, *c_.object(body(i).shape).as<Shape>());
+    write_damping(link, *c_.object(body(i).shape).as<Shape>(), c_.file.settings);
     write_members(link, i, body(i).members, in_file(i), {false, is_wheel(i)});
   }
 
@@ -231,41 +233,6 @@ class ModelWriter {
   std::vector<Loose> loose_;
 };
 
-/// Whole substeps in a step.
-double substep_of(const Settings& settings) {
-  const double count = std::max(1.0, std::round(settings.time_step / settings.engine_step));
-  return settings.time_step / count;
-}
-
-void write_settings(pugi::xml_node world, const Settings& settings) {
-  put(world, "bubblesim:axis_convention", "coppeliasim");
-  put(world, "bubblesim:time_step", settings.time_step);
-  put(world, "gravity", exact({settings.gravity.x(), settings.gravity.y(), settings.gravity.z()}));
-  pugi::xml_node physics = named(world, "physics", "engine");
-  physics.append_attribute("type").set_value("ode");
-  put(physics, "max_step_size", substep_of(settings));
-  put(physics, "bubblesim:substeps", "auto");  // ropes of many links need shorter ones
-  pugi::xml_node scene = world.append_child("scene");
-  put(scene, "ambient", color_text(settings.ambient));
-  put(scene, "background", color_text(settings.background));
-  put(scene, "shadows", "false");
-}
-
-void write_floor(pugi::xml_node world) {
-  pugi::xml_node model = named(world, "model", kFloor);
-  put(model, "static", "true");
-  pugi::xml_node link = named(model, "link", "link");
-  for (const char* part : {"collision", "visual"}) {
-    pugi::xml_node element = named(link, part, part);
-    pugi::xml_node plane = element.append_child("geometry").append_child("plane");
-    put(plane, "normal", "0 0 1");
-    put(plane, "size", "10 10");
-    if (std::string(part) == "collision") {
-      put(element.append_child("surface").append_child("contact"), "collide_bitmask", "65535");
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<std::string> write_scene(const SceneFile& file, const std::string& name, const fs::path& folder) {
@@ -287,7 +254,7 @@ std::vector<std::string> write_scene(const SceneFile& file, const std::string& n
     const Object& object = conversion.object(i);
     if (object.as<Joint>() != nullptr) conversion.joints[i] = conversion.names.take(object.alias);
   }
-  if (!file.is_scene) write_floor(world);
+  if (!file.is_scene) write_floor(world, file, structure);
   pugi::xml_node state = sdf.append_child("state");
   for (const Group& group : groups_of(file, structure)) {
     ModelWriter(world, state, group, conversion).write();

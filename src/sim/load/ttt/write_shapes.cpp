@@ -77,6 +77,13 @@ double friction_of(const Shape& shape, int engine) {
   return shape.ode.empty() ? 1 : std::max(shape.ode.front(), 0.0);
 }
 
+/// The part of the velocity that `damping` takes in `seconds`, as a part in a step of Gazebo, which SDFormat has.
+double decay_of(double damping, double seconds) {
+  constexpr double kGazeboStep = 1e-3;  // s
+  constexpr double kMost = 0.999;
+  return -std::expm1(std::log1p(-std::clamp(damping, 0.0, kMost)) * kGazeboStep / seconds);
+}
+
 class ShapeWriter {
  public:
   ShapeWriter(pugi::xml_node link, int shape, const Pose& link_pose, const LinkKind& kind, Conversion& conversion)
@@ -160,7 +167,7 @@ class ShapeWriter {
     put_pose(element, pose);
     if (look.opacity < 1) put(element, "transparency", 1 - look.opacity);
     pugi::xml_node material = element.append_child("material");
-    put(material, "diffuse", color_text(look.color));
+    put(material, "diffuse", color_text(!texture.empty() && look.is_decal ? Rgb{1, 1, 1} : look.color));
     if (look.emission != Rgb{0, 0, 0}) put(material, "emissive", color_text(look.emission));
     if (!texture.empty()) put(material.append_child("pbr").append_child("metal"), "albedo_map", texture);
     return element;
@@ -179,6 +186,18 @@ class ShapeWriter {
 
 void write_shape(pugi::xml_node link, int shape, const Pose& link_pose, const LinkKind& kind, Conversion& conversion) {
   ShapeWriter(link, shape, link_pose, kind, conversion).write();
+}
+
+void write_damping(pugi::xml_node link, const Shape& shape, const Settings& settings) {
+  constexpr std::size_t kOfBlock = 3;  // linear, then angular, in the blocks of both engines
+  const bool is_bullet = settings.engine == 0;
+  const std::vector<double>& block = is_bullet ? shape.bullet : shape.ode;
+  if (block.size() < kOfBlock + 2 || !(block[kOfBlock] > 0 || block[kOfBlock + 1] > 0)) return;
+  // Bullet's damping is for a second, ODE's for a substep.
+  const double seconds = is_bullet ? 1 : settings.engine_step;
+  pugi::xml_node decay = link.append_child("velocity_decay");
+  put(decay, "linear", decay_of(block[kOfBlock], seconds));
+  put(decay, "angular", decay_of(block[kOfBlock + 1], seconds));
 }
 
 }  // namespace bubblesim::ttt

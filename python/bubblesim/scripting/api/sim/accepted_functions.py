@@ -122,9 +122,10 @@ class AcceptedFunctions(LogFunctions):
         return 1
 
     def getObjectCustomData(self, handle: Handle, header: int) -> str | bytes | None:
-        """Return what was attached with addObjectCustomData; None (nil) if there is nothing."""
-        data: str | bytes | None = self._caller.shared.custom_data.get((self._resolve(handle), f"#{header}"))
-        return data
+        """Return what was attached with addObjectCustomData, or in the file; None (nil) if there is nothing."""
+        owner, tag = self._resolve(handle), f"#{header}"
+        data: str | bytes | None = self._caller.shared.custom_data.get((owner, tag))
+        return self._world.file_data(owner).get(tag) if data is None else data
 
     def getMaterialId(self, name: str) -> int:
         """Return -1: materials are those of the file."""

@@ -118,7 +118,7 @@ class PathFunctions(ObjectFunctions):
         size = len(points) // max(1, count)
         if size < 3:
             raise ValueError(f"{count} points need 3 numbers or more each, found {len(points)}")
-        known = self._caller.shared.custom_data.get((handle, "PATHCTRLPTS"))
+        known = self._data(handle, "PATHCTRLPTS")
         configs = path_points.rows(_unpacked(known), 7) if known else []
         for number in range(count):
             values = points[size * number : size * (number + 1)]
@@ -172,11 +172,16 @@ class PathFunctions(ObjectFunctions):
         numbers = [number for config in configs for number in config]
         self._caller.shared.custom_data[handle, tag] = struct.pack(f"<{len(numbers)}d", *numbers)
 
+    def _data(self, handle: int, tag: str) -> Any:
+        """Return what a script has attached to an object, or the scene's file."""
+        data = self._caller.shared.custom_data.get((handle, tag))
+        return self._world.file_data(handle).get(tag) if data is None else data
+
     def _path(self, path: int) -> tuple[list[list[float]], list[float]]:
         """Return the poses of a path in its frame, and the lengths up to each."""
         handle = self._resolve(path)
         self._tree.kind(handle)  # raises
-        data = self._caller.shared.custom_data.get((handle, "PATH"))
+        data = self._data(handle, "PATH")
         if data is None:
             raise ValueError(f"{self._tree.short_path(handle)} is not a path: it has no custom data 'PATH'")
         configs = path_points.rows(_unpacked(data), 7)
