@@ -89,7 +89,11 @@ ScriptFiles scripts_to_run(const Simulation& simulation, const ScriptOptions& op
   for (const ModelDescription& model : simulation.scene().models) {
     for (auto& script : scripts_of(model, "/" + model.name)) scripts.push_back(std::move(script));
   }
-  for (const ObjectId model : tree.models()) add_placed(simulation.world(), model, scripts);
+  ScriptFiles included;  // with a model of another simulator
+  for (const ObjectId model : tree.models()) {
+    const bool is_included = simulation.world().models().description(model).is_foreign;
+    add_placed(simulation.world(), model, is_included ? included : scripts);
+  }
   const std::vector<FrameDescription>& frames = simulation.scene().frames;
   for (const ObjectId id : tree.objects()) {
     if (tree.at(id).kind != ObjectKind::kFrame || tree.outermost_model_of(id) != kNoObject) continue;
@@ -99,6 +103,7 @@ ScriptFiles scripts_to_run(const Simulation& simulation, const ScriptOptions& op
   if (is_foreign_scene(simulation.scene().file)) {
     scripts = trusted_of(scripts, options.python_of_foreign_scenes || allows_python(scripts));
   }
+  for (auto& script : trusted_of(included, options.python_of_foreign_scenes)) scripts.push_back(std::move(script));
   for (const auto& [object, file] : options.replacements) {
     const std::string path = tree.path(tree.find(object));
     if (!std::filesystem::is_regular_file(file)) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "files/file_text.hpp"
+#include "load/converted_scene.hpp"
 #include "load/find/model_folders.hpp"
 #include "load/sdf/documents/unique_names.hpp"
 #include "load/sdf/documents/upgrade.hpp"
@@ -110,7 +111,9 @@ void Documents::expand_includes(XmlElement& parent, const std::string& path) {
     const Source place = child.source();
     if (child.name == "world") expand_includes(child, path);
     if (child.name == "model") expand_includes(child, path + "/" + child.given_name());
-    if (child.name == "include") {
+    if (child.name == "include" && is_foreign_scene(child.child_text("uri"))) {
+      expanded.push_back(foreign(child, parent));
+    } else if (child.name == "include") {
       expand(child, expanded);
     } else {
       expanded.push_back(std::move(child));
@@ -141,6 +144,22 @@ void Documents::expand(const XmlElement& include, std::vector<XmlElement>& into)
   if (merges != nullptr && is_true(*merges)) return merge(include, found->model, into);
   into.push_back(found->model);
   override_by(include, into.back());
+}
+
+XmlElement Documents::foreign(const XmlElement& include, const XmlElement& parent) {
+  const std::string& uri = include.child_text("uri");
+  if (parent.name != "world") {
+    fail(include.source(), "includes " + uri + ", a file of CoppeliaSim, in a model: include it in the <world>");
+  }
+  const fs::path file = file_of(uri, include);
+  if (file.empty()) {
+    fail(include.source(), "includes " + uri + ", which does not exist" + context_.where_models_are());
+  }
+  XmlElement left = include;
+  left.name = kForeignInclude;
+  left.set_attribute("name", include.child_text("name").empty() ? file.stem().string() : include.child_text("name"));
+  left.child("uri")->text = file.string();
+  return left;
 }
 
 /// The parts of the model become parts of the including one. Their poses are relative to a frame that takes the place

@@ -13,9 +13,13 @@
 
 namespace bubblesim {
 
+/// What is left of an <include> of a file of CoppeliaSim in a world: its <uri> is the file, its name is given.
+constexpr const char* kForeignInclude = "foreign_include";
+
 /// Reads each file once: it is parsed, brought to the newest version, checked, and its <include>s are replaced by the
 /// models, with what the <include> changes of them. An <include> of URDF stays, with the file as its <uri>; the model
-/// is in LoadContext::included_robots(). Models that are not found are left out, with a warning.
+/// is in LoadContext::included_robots(). An <include> of a file of CoppeliaSim becomes a kForeignInclude. Models that
+/// are not found are left out, with a warning; a file of CoppeliaSim that is not found is an error.
 class Documents {
  public:
   explicit Documents(LoadContext& context) : context_(context) {}
@@ -34,6 +38,7 @@ class Documents {
   void prepare(XmlElement& sdf);
   void expand_includes(XmlElement& parent, const std::string& path);
   void expand(const XmlElement& include, std::vector<XmlElement>& into);
+  XmlElement foreign(const XmlElement& include, const XmlElement& parent);
   const Included* find(const XmlElement& include);
   std::filesystem::path file_of(const std::string& uri, const XmlElement& include);
   std::filesystem::path file_in(const std::filesystem::path& folder, const XmlElement& include);

@@ -6,13 +6,17 @@
 #include <set>
 #include <vector>
 
+#include "load/sdf/documents/documents.hpp"
+
 namespace bubblesim {
 namespace {
 
 using Names = std::set<std::string>;
 
 /// The kinds of objects that share their names; an <include> that is left is a robot.
-bool is_model(const XmlElement& element) { return element.name == "model" || element.name == "include"; }
+bool is_model(const XmlElement& element) {
+  return element.name == "model" || element.name == "include" || element.name == kForeignInclude;
+}
 
 /// Numbers the elements of a kind that have a name already taken: name_2, name_3. `place_of` gives that of the child at
 /// an index.

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "bubblesim/nearest_names.hpp"
+#include "load/foreign_models.hpp"
+#include "load/sdf/documents/documents.hpp"
 #include "load/sdf/elements/own_elements.hpp"
 #include "load/sdf/models/frames.hpp"
 #include "load/sdf/models/sdf_models.hpp"
@@ -114,6 +116,21 @@ void read_models(const SdfElement& world, const Frames& frames, SceneDescription
   }
 }
 
+/// Adds the models of files of CoppeliaSim. They keep their places in the file; the <pose> moves all of them.
+void read_foreign_models(const SdfElement& world, const Frames& frames, SceneDescription& scene, LoadContext& context) {
+  for (const XmlElement& child : world.xml().children) {
+    if (child.name != kForeignInclude) continue;
+    const SdfElement include(&child, *world.kind().child("include"));
+    const std::string path = "/" + include.name();
+    for (const char* other : {"static", "placement_frame", "plugin"}) {
+      if (include.has(other)) context.warn(include.source(), path, std::string("<") + other + "> is ignored");
+    }
+    const std::string alias = include.text("name");
+    include_foreign_models({include.text("uri"), include.name(), alias, frames.pose_of(include, "", path, context)},
+                           scene, context.warnings());
+  }
+}
+
 }  // namespace
 
 std::optional<double> read_world(const SdfElement& world, SceneDescription& scene, LoadContext& context) {
@@ -129,6 +146,7 @@ std::optional<double> read_world(const SdfElement& world, SceneDescription& scen
   read_environment(world, frames, scene.environment, context);
   read_models(world, frames, scene, context);
   scene.frames = read_objects(world, "", context);
+  read_foreign_models(world, frames, scene, context);
   apply_state(world, scene.models, context);
   return substeps;
 }
