@@ -21,11 +21,40 @@ def test_a_client_loads_each_model_of_the_browser(tmp_path: Path) -> None:
         assert "did you mean 'UR10'?" in refusal(sim.loadModel, "models/robots/non-mobile/UR-100.ttm")
 
 
+@pytest.mark.parametrize(
+    ("file", "motors"),
+    [
+        ("pioneer p3dx", "/PioneerP3DX/leftMotor /PioneerP3DX/rightMotor"),
+        ("line tracer", "/LineTracer/DynamicLeftJoint /LineTracer/DynamicRightJoint"),
+        ("bubbleRob", "/bubbleRob/leftMotor /bubbleRob/rightMotor"),
+    ],
+)
+def test_a_client_that_commands_the_motors_drives_a_robot_with_a_script(tmp_path: Path, file: str, motors: str) -> None:
+    with RemoteNode(tmp_path, "--speed", "max", scene="p3dx_floor") as node:
+        sim = node.sim()
+        sim.removeModel(sim.getObject("/PioneerP3DX"))
+        sim.loadModel(f"models/robots/mobile/{file}.ttm")
+        left, right = map(sim.getObject, motors.split())
+        sim.setStepping(True)
+        sim.startSimulation()
+        for _ in range(20):
+            sim.step()
+        assert sim.getJointTargetVelocity(left) > 0.1  # of the script
+        for _ in range(20):
+            sim.setJointTargetVelocity(left, -1)
+            sim.setJointTargetVelocity(right, 1)
+            sim.step()
+        assert sim.getJointVelocity(left) == pytest.approx(-1, abs=0.02)
+        assert sim.getJointVelocity(right) == pytest.approx(1, abs=0.02)
+        sim.stopSimulation()
+
+
 def test_a_program_for_an_arm_with_a_gripper_runs_unchanged(tmp_path: Path) -> None:
     with RemoteNode(tmp_path, "--speed", "max", scene="p3dx_floor") as node:
         sim = node.sim()
         arm = sim.loadModel("models/robots/non-mobile/UR5.ttm")
         sim.setObjectPosition(arm, [1.5, 0, 0])
+        sim.removeObjects([sim.getObject("/UR5/Script")])
         gripper = sim.loadModel("models/components/grippers/RG2.ttm")
         connection = sim.getObject("/UR5/connection")
         sim.setObjectPose(gripper, [0, 0, 0, 0, 0, 0, 1], connection)

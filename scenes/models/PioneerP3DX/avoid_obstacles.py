@@ -1,7 +1,7 @@
 #python
 # SPDX-License-Identifier: BSD-3-Clause
 # A Braitenberg vehicle: what a front sonar sees within half a metre slows the wheels, most of all the one on the other
-# side, which turns the robot away.
+# side, which turns the robot away. Once a program commands the motors, the script leaves them to it.
 SPEED = 2.0  # rad/s
 FAR, NEAR = 0.5, 0.2  # m: no effect, full effect
 SLOWS_LEFT = (0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6)  # rad/s at full effect, from the left sonar to the right one
@@ -10,13 +10,19 @@ SLOWS_LEFT = (0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6)  # rad/s at full effect, f
 def sysCall_init():
     self.motors = [sim.getObject(f'./{side}Motor') for side in ('left', 'right')]
     self.sonars = [sim.getObject(f'./ultrasonicSensor[{i}]') for i in range(8)]
+    self.speeds = [0.0, 0.0]  # rad/s, the last commands
 
 
 def sysCall_actuation():
+    if [sim.getJointTargetVelocity(motor) for motor in self.motors] != self.speeds:
+        return
     effects = [effect(sonar) for sonar in self.sonars]
-    for motor, slows in zip(self.motors, (SLOWS_LEFT, SLOWS_LEFT[::-1]), strict=True):
-        slower = sum(share * seen for share, seen in zip(slows, effects, strict=True))
-        sim.setJointTargetVelocity(motor, SPEED - slower)
+    self.speeds = [
+        SPEED - sum(share * seen for share, seen in zip(slows, effects, strict=True))
+        for slows in (SLOWS_LEFT, SLOWS_LEFT[::-1])
+    ]
+    for motor, speed in zip(self.motors, self.speeds, strict=True):
+        sim.setJointTargetVelocity(motor, speed)
 
 
 def effect(sonar):
