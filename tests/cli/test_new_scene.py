@@ -70,6 +70,7 @@ def test_names_that_are_none_are_refused(tmp_path: Path, name: str) -> None:
     run = bubblesim("new-scene", name, cwd=tmp_path)
     assert run.returncode == 2
     assert f"'{name}' is not a valid scene name" in run.stderr
+    assert ("its folder is given by --folder" in run.stderr) == ("/" in name)
     assert list(tmp_path.iterdir()) == []
 
 
