@@ -39,7 +39,10 @@ def add_parser(commands: Any) -> None:
 def _make(options: argparse.Namespace) -> int:
     name: str = options.name
     if not _NAME.fullmatch(name):
-        raise ValueError(f"'{name}' is not a valid scene name: use a letter, then letters, digits and underscores")
+        folder = "; its folder is given by --folder" if "/" in name else ""
+        raise ValueError(
+            f"'{name}' is not a valid scene name: use a letter, then letters, digits and underscores{folder}"
+        )
     kind = options.template or _asked()
     templates = {suffix: _TEMPLATES / f"{kind}{suffix}.in" for suffix in (".sdf", ".py")}
     files = {options.folder / f"{name}{suffix}": file for suffix, file in templates.items() if file.exists()}
