@@ -1,7 +1,7 @@
 #python
 # SPDX-License-Identifier: BSD-3-Clause
-# Drives ahead. When the nose sees something, it drives backwards in a curve for 4 s. Once a program commands the motors,
-# the script leaves them to it.
+# Drives ahead. When the nose sees something, it drives backwards in a curve for 4 s. Once a program commands the
+# motors, the script leaves them to it.
 SPEED = 3.0  # rad/s
 NEAR = 0.3  # m
 BACKWARDS = 4.0  # s
