@@ -175,6 +175,12 @@ class Window:
         away = "bubblesim.view.camera.position.clone().sub(bubblesim.view.viewpoint.controls.target).normalize()"
         self.wait(f"{away}.z > 0.9999999")
 
+    def open_file(self, file: Path) -> None:
+        """Choose a file in the window's dialog."""
+        with self.page.expect_file_chooser() as chooser:
+            self.page.keyboard.press("Control+o")
+        chooser.value.set_files(file)
+
     def button(self, title: str) -> Any:
         """Return the button whose title begins so."""
         return self.page.locator(f"button[title^='{title}']")

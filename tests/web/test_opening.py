@@ -21,7 +21,7 @@ def _own_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def choose(page: Window, file: Path) -> None:
     """Give the window a file, and wait for its question."""
-    page.page.locator("input[type=file]").set_input_files(file)
+    page.open_file(file)
     page.page.wait_for_selector(".opening[open]")
 
 
@@ -57,7 +57,7 @@ def test_a_scene_is_opened_with_its_lua_scripts(tmp_path: Path, show: Show) -> N
 
 
 @pytest.mark.parametrize("allowed", [False, True])
-def test_python_scripts_run_only_if_the_user_says_so(tmp_path: Path, show: Show, *, allowed: bool) -> None:
+def test_python_scripts_run_only_if_the_user_allows_them(tmp_path: Path, show: Show, *, allowed: bool) -> None:
     file = write(tmp_path / "box.ttt", FLOOR, BOX, script(2, PYTHON, "python"))
     with Node(tmp_path, "ball", "--paused") as node:
         page = show(node)
@@ -96,10 +96,12 @@ def test_a_damaged_file_is_refused_and_the_scene_stays(tmp_path: Path, show: Sho
     file.write_bytes(b"VREP" + bytes(100))
     with Node(tmp_path, "ball", "--paused") as node:
         page = show(node)
-        page.page.locator("input[type=file]").set_input_files(file)
+        page.open_file(file)
         page.page.wait_for_selector(".notice.error:has-text('bad.ttt')")
         assert page.js("bubblesim.scene.byPath('/Ball') !== undefined")
-        page.page.locator("input[type=file]").set_input_files({"name": "a.txt", "mimeType": "", "buffer": b"x"})
+        other = tmp_path / "a.txt"
+        other.write_text("x")
+        page.open_file(other)
         page.page.wait_for_selector(".notice.error:has-text('a.txt: this window opens')")
     assert list((tmp_path / "here").iterdir()) == []
 
@@ -108,7 +110,7 @@ def test_a_read_only_window_opens_no_scenes(tmp_path: Path, show: Show) -> None:
     file = write(tmp_path / "box.ttt", FLOOR, BOX)
     with Node(tmp_path, "ball", "--paused", "--web-edit=false") as node:
         page = show(node)
-        page.page.locator("input[type=file]").set_input_files(file)
+        page.open_file(file)
         page.page.wait_for_selector(".notice.error:has-text('read-only')")
         for call in (["server.readForeign", ["box.ttt", None]], ["server.openForeign", [str(tmp_path), False]]):
             assert "read-only" in page.js("bubblesim.link.call(...x).catch((e) => e.message)", call)

@@ -64,14 +64,14 @@ def test_a_run_can_be_played_after_the_simulation_was_stopped(tmp_path: Path, sh
         page.wait("bubblesim.link.frame.state === 'stopped' && bubblesim.link.frame.time === 0")
         page.js("bubblesim.view.settled()")
         start = page.js(PLACE)
-        page.button("Play the last run back").click()
+        page.button("Replay the last run").click()
         assert page.js("bubblesim.playback.time") > 1
         assert page.js(PLACE)[2] < start[2] - 0.1
         seek(page, 0)
         assert page.js(PLACE) == pytest.approx(start, abs=1e-6)
 
 
-def test_a_playback_says_what_it_is_and_changes_nothing(tmp_path: Path, show: Show) -> None:
+def test_a_playback_shows_what_it_is_and_changes_nothing(tmp_path: Path, show: Show) -> None:
     with Node(tmp_path, "ball") as node:
         page = show(node)
         after(page, 1)
@@ -173,10 +173,6 @@ def saved_run(page: Window, folder: Path) -> Path:
     return file
 
 
-def open_file(page: Window, file: Path) -> None:
-    page.page.locator("input[type=file]").set_input_files(file)
-
-
 def test_a_saved_run_is_played_in_another_session(tmp_path: Path, show: Show) -> None:
     with Node(tmp_path, "ball") as node:
         page = show(node)
@@ -188,7 +184,7 @@ def test_a_saved_run_is_played_in_another_session(tmp_path: Path, show: Show) ->
         assert file.suffix == ".run"
     with Node(tmp_path, "ball", "--paused") as node:
         page = show(node)
-        open_file(page, file)
+        page.open_file(file)
         page.wait("bubblesim.playback.run !== null")
         seek(page, 0.7)
         assert page.js(PLACE) == pytest.approx(place, abs=1e-6)
@@ -244,7 +240,7 @@ def test_files_that_are_no_runs_of_this_scene_are_refused(tmp_path: Path, show: 
         for number, (message, content) in enumerate(bad.items()):
             file = tmp_path / f"bad{number}.run"
             file.write_bytes(content)
-            open_file(page, file)
+            page.open_file(file)
             page.page.wait_for_selector(f".notice.error:has-text('{file.name}'):has-text('{message}')")
             assert page.js("bubblesim.playback.run === null")
 

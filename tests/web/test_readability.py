@@ -37,7 +37,19 @@ _FAINT_TEXTS = """(() => {
   }
   return found;
 })()"""
-TABS = ["Models", "Scripts", "Plots", "Cameras", "Problems", "Drive", "Record", "Console", "Scene", "Properties"]
+TABS = [
+    "Models",
+    "Build",
+    "Scripts",
+    "Plots",
+    "Cameras",
+    "Problems",
+    "Drive",
+    "Record",
+    "Console",
+    "Scene",
+    "Properties",
+]
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -57,6 +69,21 @@ def test_all_texts_have_enough_contrast(tmp_path: Path, browser: Browser, scheme
             page.wait_for_timeout(300)
             faint |= set(window.js(_FAINT_TEXTS, LEAST))
         window.button("What is shown").click()
+        faint |= set(window.js(_FAINT_TEXTS, LEAST))
+        page.keyboard.press("Escape")
+        for _ in range(2):  # frames of a run
+            time = window.js("bubblesim.link.frame.time")
+            page.keyboard.press("n")
+            window.wait("bubblesim.link.frame.time > x", time)
+        page.keyboard.press("l")
+        window.wait("bubblesim.playback.run !== null")
+        window.js("bubblesim.layout.show('record')")  # the properties are greyed, as what is disabled
+        faint |= set(window.js(_FAINT_TEXTS, LEAST))
+        page.click("button:has-text('Video…')")
+        faint |= set(window.js(_FAINT_TEXTS, LEAST))
+        page.keyboard.press("Escape")
+        page.keyboard.press("l")
+        window.js("bubblesim.link.emit('gone')")
         faint |= set(window.js(_FAINT_TEXTS, LEAST))
         assert faint == set()
         assert window.errors == []

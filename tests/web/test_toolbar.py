@@ -76,6 +76,8 @@ def test_no_button_is_cut_off_on_a_small_screen(tmp_path: Path, show: Show) -> N
         page.page.set_viewport_size({"width": 1024, "height": 768})
         page.wait("document.querySelector('.toolbar').clientWidth === 1024")
         assert page.js(right) <= 1024
+        page.button("What is shown").click()
+        assert page.js("document.querySelector('.menu').getBoundingClientRect().right") <= 1024
 
 
 BACK = "getComputedStyle(document.querySelector('.toolbar')).backgroundColor"

@@ -28,7 +28,7 @@ export class Toolbar {
     this.pause = button("pause", "Pause (Space)", () => app.attempt("window.pause"));
     this.stop = button("stop", "Stop: back to the start of the scene (Shift+Space)", () => app.attempt("window.stop"));
     this.step = button("step", "One step (N)", () => app.attempt("window.step", [1]));
-    this.back = button("history", "Play the last run back (L)", () => this.togglePlayback());
+    this.back = button("history", "Replay the last run (L)", () => this.togglePlayback());
     this.speed = h(
       "select.speed",
       { title: "Simulated seconds per second", onchange: () => app.attempt("window.speed", [Number(this.speed.value)]) },
@@ -82,7 +82,7 @@ export class Toolbar {
     const [run] = recorder.usable;
     if (playback.run) playback.end();
     else if (run) playback.begin(run);
-    else notify("There is no run to play back: this page records what moves while it is open.");
+    else notify("There is no run to replay: this page records what moves while it is open.");
   }
 
   #showPlayback() {
@@ -101,7 +101,7 @@ export class Toolbar {
     this.state.dataset.state = "playback";
   }
 
-  /// Without a simulator nothing runs, whatever the last frame said.
+  /// Without a simulator nothing runs, whatever the state of the last frame.
   showLost(lost) {
     if (!lost || this.#app.playback.run) return;
     this.#set(this.state, "ended");

@@ -63,7 +63,7 @@ class Plot {
     let size = 0;
     for (const { shown, value } of this.series) {
       size += shown.times.length;
-      const last = shown.part(end, Infinity)[1].at(-1);
+      const last = shown.last(end);
       const text = last === undefined ? "-" : Number(last.toPrecision(4)).toString();
       if (value.textContent !== text) value.textContent = text;
     }

@@ -33,7 +33,7 @@ function playbackPart(app) {
   return h(
     "div.bag",
     h("h3", "Runs"),
-    h("button", { title: "L", onclick: () => app.toolbar.togglePlayback() }, "Play the last run back"),
+    h("button", { title: "L", onclick: () => app.toolbar.togglePlayback() }, "Replay the last run"),
     h("button", { onclick: () => app.files.ask() }, "Open a saved run…"),
     h("p.hint", "This page records the last five runs while it is open. “Save run” and “Video” are below the view during a playback."),
   );

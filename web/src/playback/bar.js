@@ -20,7 +20,7 @@ export class PlaybackBar {
     this.#app = app;
     const { playback, recorder } = app;
     const button = (name, title, onclick) => h("button.tool", { title, "aria-label": title, onclick }, icon(name));
-    this.play = button("play", "Play the recording (Space)", () => this.#toggle());
+    this.play = button("play", "Continue the recording (Space)", () => this.#toggle());
     const speed = h(
       "select",
       { title: "Seconds of the run per second", "aria-label": "Speed of the playback", onchange: () => playback.setSpeed(Number(speed.value)) },
@@ -74,7 +74,7 @@ export class PlaybackBar {
     const { run, time, plays } = this.#app.playback;
     this.element.hidden = !run;
     if (!run) return;
-    const title = plays ? "Pause the recording (Space)" : "Play the recording (Space)";
+    const title = plays ? "Hold the recording (Space)" : "Continue the recording (Space)";
     if (this.play.title !== title) {
       this.play.title = title;
       this.play.setAttribute("aria-label", title);

@@ -39,6 +39,11 @@ export class Series {
     return [this.times.slice(from, to), this.values.slice(from, to)];
   }
 
+  /// The last value until a time; undefined if there is none.
+  last(end) {
+    return this.values[this.#place((time) => time <= end) - 1];
+  }
+
   /// How many times, from the first one on, fulfil a condition.
   #place(holds) {
     let low = 0;
