@@ -71,7 +71,7 @@ def run_script(
     return run
 
 
-# For child scripts: the text of the error with which a call is refused.
+# For child scripts: the text of the error with which a call is refused, or of the warning that it has no effect.
 REFUSED = """\
 def refused(call, *arguments):
     try:
@@ -79,6 +79,14 @@ def refused(call, *arguments):
     except (ValueError, LookupError, RuntimeError) as error:
         return str(error)
     raise AssertionError('accepted')
+
+
+def warned(call, *arguments):
+    sim.setStringParam(sim.stringparam_verbosity, 'errors')
+    before = sim.getLog()['last']
+    call(*arguments)
+    sim.setStringParam(sim.stringparam_verbosity, 'infos')
+    return ' '.join(entry['text'] for entry in sim.getLog(before)['entries'])
 """
 
 

@@ -171,19 +171,22 @@ Vector3 World::acceleration(ObjectId object) const {
 
 namespace {
 
+/// Without rounding errors in the length of the quaternion, which a later motion would multiply.
+Pose normalized(const Pose& pose) { return {pose.position, pose.orientation.normalized()}; }
+
 /// Moves all from where they are relative to `before` to the same place relative to `wanted`.
 void move(WorldState& state, const Movers& moving, const Pose& before, const Pose& wanted) {
   for (const ObjectId frame : moving.frames) {
     PlacedFrame& placed = state.frames.at(frame);
     if (moving.links.count(placed.link) > 0) continue;  // it moves along
     const Pose moved = wanted * (before.inverse() * frame_pose(state, placed));
-    placed.pose = placed.link == kNoObject ? moved : link_pose(state.link(placed.link)).inverse() * moved;
+    placed.pose = normalized(placed.link == kNoObject ? moved : link_pose(state.link(placed.link)).inverse() * moved);
   }
   for (const ObjectId id : moving.sensors) {
     const Object& sensor = state.tree().at(id);
     if (moving.links.count(sensor.carrier) > 0) continue;
     const Pose moved = wanted * (before.inverse() * pose_of(state, id));
-    state.model_of(id).sensors[sensor.index] = link_pose(state.link(sensor.carrier)).inverse() * moved;
+    state.model_of(id).sensors[sensor.index] = normalized(link_pose(state.link(sensor.carrier)).inverse() * moved);
   }
   if (moving.links.empty()) return;
   wake(state.moving);
@@ -194,7 +197,7 @@ void move(WorldState& state, const Movers& moving, const Pose& before, const Pos
     const Link& link = state.link(id);
     const Pose moved = wanted * (before.inverse() * link_pose(link));
     if (link.body == nullptr) {
-      place_static(state, id, {moved.position, moved.orientation.normalized()});
+      place_static(state, id, normalized(moved));
       continue;
     }
     const Vector3 centre = moved * link.centre_of_mass;
