@@ -45,31 +45,60 @@ def test_files_beside_the_script_can_be_read(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("call", "why"),
+    ("call", "results", "why"),
     [
-        ("io.open('new.txt', 'w')", "cannot be written"),
-        ("io.open('/etc/passwd')", "is not beside the scene or the script"),
-        ("io.open('../../../../../../etc/passwd')", "is not beside the scene or the script"),
-        ("io.open('.hidden/key')", "is not beside the scene or the script"),
-        ("os.execute('ls')", "start programs with sim.launchExecutable"),
-        ("os.remove('data.csv')", "it changes files"),
-        ("os.exit()", "sim.quitSimulator"),
-        ("io.popen('ls')", "sim.launchExecutable"),
+        ("io.open('new.txt', 'w'):write('a', 1):close()", "true", "nothing is written to 'new.txt'"),
+        ("io.open('/etc/passwd')", "nil", "is not beside the scene or the script"),
+        ("io.open('../../../../../../etc/passwd')", "nil", "is not beside the scene or the script"),
+        ("io.open('.hidden/key')", "nil", "is not beside the scene or the script"),
+        ("os.execute('ls')", "nil", "start programs with sim.launchExecutable"),
+        ("os.remove('data.csv')", "nil", "it changes files"),
+        ("io.popen('ls'):read('*a')", "", "sim.launchExecutable"),
     ],
 )
-def test_the_rest_reports_why_not(tmp_path: Path, call: str, why: str) -> None:
+def test_the_rest_fails_as_without_permissions_and_a_warning_states_why(
+    tmp_path: Path, call: str, results: str, why: str
+) -> None:
     (tmp_path / ".hidden").mkdir()
     (tmp_path / ".hidden" / "key").write_text("secret")
-    run = run_script(tmp_path, f"function sysCall_init() {call} end", "--strict", name="script.lua")
+    (tmp_path / "data.csv").write_text("1")
+    code = f"function sysCall_init() for i = 1, 2 do print(({call})) end end"
+    run = run_script(tmp_path, code, name="script.lua")
+    assert run.stdout == f"{results}\n" * 2
+    assert run.stderr.count(why) == 1
+    assert sorted(file.name for file in tmp_path.iterdir()) == [".hidden", "data.csv", "script.lua"]
+
+
+def test_a_script_cannot_end_the_simulator(tmp_path: Path) -> None:
+    run = run_script(tmp_path, "function sysCall_init() os.exit() end", "--strict", name="script.lua")
     assert run.returncode == 3
-    assert why in run.stderr
-    assert "script.lua:1: " in run.stderr
+    assert "sim.quitSimulator" in run.stderr
 
 
 def test_a_link_that_leads_elsewhere_is_not_read(tmp_path: Path) -> None:
     (tmp_path / "link").symlink_to("/etc/passwd")
-    run = run_script(tmp_path, "function sysCall_init() io.open('link') end", "--strict", name="script.lua")
+    run = run_script(tmp_path, "function sysCall_init() print((io.open('link'))) end", name="script.lua")
+    assert run.stdout == "nil\n"
     assert "is not beside the scene or the script" in run.stderr
+
+
+def test_helpers_of_coppeliasims_lua_are_there(tmp_path: Path) -> None:
+    body = """
+        local copy = table.deepcopy({1, {2}})
+        print(copy[2][1], table.find({5, 6}, 6), string.split('a,b', ',')[2], string.startswith('abc', 'a'))
+        printf('%d %s %s', 3, 'x', {1, 2})
+        import 'simVision'
+        print(type(simVision.sensorImgToWorkImg), type(loadPlugin('simIK').createEnvironment), require 'simMTB')
+    """
+    assert in_init(tmp_path, body) == ["2\t2\tb\ttrue", "3 x {1, 2}", "function\tfunction\tnil"]
+
+
+def test_a_module_that_is_not_here_is_named_with_what_to_use(tmp_path: Path) -> None:
+    code = "simSubprocess = require 'simSubprocess'\nfunction sysCall_init() simSubprocess.exec('ls') end"
+    run = run_script(tmp_path, code, "--strict", name="script.lua")
+    assert "CoppeliaSim's module simSubprocess is not here: sim.launchExecutable" in run.stderr
+    run = run_script(tmp_path, "require('simMTB')\ndef sysCall_init(): pass", "--strict")
+    assert "CoppeliaSim's module simMTB is not here" in run.stderr
 
 
 COROUTINE = """

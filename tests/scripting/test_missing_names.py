@@ -137,7 +137,8 @@ def test_what_is_no_handle_is_reported_with_function_argument_and_line(
         ("sysCall_actuaton", "sysCall_actuaton is never called; did you mean sysCall_actuation?"),
         ("sysCall_clenup", "sysCall_clenup is never called; did you mean sysCall_cleanup?"),
         ("sysCall_triger", "sysCall_triger is never called; did you mean sysCall_trigger?"),
-        ("sysCall_mesage", "sysCall_mesage is never called; the callbacks are sysCall_init, sysCall_thread,"),
+        ("sysCall_mesage", "sysCall_mesage is never called; did you mean sysCall_msg?"),
+        ("sysCall_zzz", "sysCall_zzz is never called; the callbacks are sysCall_init, sysCall_thread,"),
     ],
 )
 def test_a_callback_that_is_never_called_is_one_warning_with_what_is_near(

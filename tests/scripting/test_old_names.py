@@ -145,3 +145,69 @@ def test_old_getters_of_parameters_have_two_results(tmp_path: Path) -> None:
 def test_particles_that_a_script_has_not_are_removed_without_an_error(tmp_path: Path) -> None:
     code = "function sysCall_init() print(sim.removeParticleObject(-1)) end"
     assert run_script(tmp_path, code, "--strict", name="script.lua").stdout == "1\n"
+
+
+def old_script(folder: Path, code: str, until: float = 0.15) -> str:
+    run = run_script(folder, code, "--strict", name="script.lua", until=until)
+    assert "error" not in run.stderr
+    return run.stdout
+
+
+def test_a_script_of_v_rep_3_5_compares_its_call_type_with_names_of_callbacks(tmp_path: Path) -> None:
+    code = """
+        if (sim_call_type==sim.syscb_init) then count = 0 print('init') end
+        if (sim_call_type==sim.syscb_actuation) then count = count + 1 end
+        if (sim_call_type==sim.syscb_sensing) then count = count + 10 end
+        if (sim_call_type==sim.syscb_cleanup) then print('cleanup', count) end
+    """
+    assert old_script(tmp_path, code) == "init\ncleanup\t33\n"
+
+
+def test_a_customization_script_of_v_rep_is_called_before_the_simulation(tmp_path: Path) -> None:
+    code = """
+        if (sim_call_type==sim_customizationscriptcall_initialization) then print('init') end
+        if (sim_call_type==sim_customizationscriptcall_lastbeforesimulation) then print('before') end
+    """
+    assert old_script(tmp_path, code) == "init\nbefore\n"
+
+
+def test_the_text_of_a_threaded_script_of_v_rep_3_5_is_its_thread(tmp_path: Path) -> None:
+    code = """
+        threadFunction = function()
+            while sim.getSimulationState() ~= sim.simulation_advancing_abouttostop do
+                print(sim.getSimulationTime())
+                sim.switchThread()
+            end
+        end
+        sim.setThreadSwitchTiming(200)
+        res, err = xpcall(threadFunction, function(err) return debug.traceback(err) end)
+        if not res then sim.addStatusbarMessage('Lua runtime error: '..err) end
+    """
+    assert old_script(tmp_path, code) == "0.0\n0.05\n0.1\n0.15\n"
+
+
+def test_the_text_of_a_script_of_v_rep_2_runs_in_each_step(tmp_path: Path) -> None:
+    code = """
+        if (simGetScriptExecutionCount()==0) then count = 0 end
+        simHandleChildScript(sim_handle_all_except_explicit)
+        count = count + 1
+        print(count, simGetScriptExecutionCount())
+    """
+    assert old_script(tmp_path, code) == "1\t0\n2\t1\n3\t2\n"
+
+
+def test_a_misspelled_callback_is_still_reported(tmp_path: Path) -> None:
+    run = run_script(tmp_path, "function sysCal_init() sim.getObject('.') end", "--strict", name="script.lua")
+    assert run.returncode == 3
+    assert "it defines neither sysCall_init nor sysCall_thread" in run.stderr
+
+
+def test_a_name_with_silent_error_is_no_error(tmp_path: Path) -> None:
+    code = """
+        function sysCall_init()
+            local ball = sim.getObjectHandle('Ball@silentError')
+            print(sim.getObjectHandle('Nothing@silentError'), ball == sim.getObject('/Ball'))
+            print(sim.getCollisionHandle('c'), sim.readDistance(sim.getDistanceHandle('d')))
+        end
+    """
+    assert old_script(tmp_path, code) == "-1\ttrue\n0\t0\t0.0\n"

@@ -112,3 +112,28 @@ def test_lua_has_the_same_objects(tmp_path: Path) -> None:
         assert(not fine and problem:find("neither a property nor a method 'wheels'"), problem)
         """,
     )
+
+
+def test_properties_have_types_and_flags(tmp_path: Path) -> None:
+    body = """
+car, motor = sim.getObject('/Tricycle'), sim.getObject('/FrontMotor')
+kind, flags, _ = sim.getPropertyInfo(motor, 'targetVelocity')
+assert kind == sim.propertytype_float and not flags and sim.getPropertyTypeString(kind) == 'float'
+assert sim.getPropertyInfo(car, 'absPose')[0] == sim.propertytype_pose
+assert sim.getPropertyInfo(car, 'objectType')[1] & sim.propertyinfo_notwritable
+assert sim.getPropertyInfo(car, 'nothing') is None
+sim.setProperty(car, 'customData.x', 3)
+assert sim.getPropertyInfo(car, 'customData.x')[1] & sim.propertyinfo_removable
+known = sim.getProperties(motor)
+assert known['jointType'] == sim.getJointType(motor) and known['name'] == 'FrontMotor'
+assert sim.getPropertiesInfos(motor)['jointType']['type'] == sim.propertytype_int
+sim.setProperties(motor, {'targetVelocity': 0.25, 'targetForce': 2.0})
+assert sim.getJointTargetVelocity(motor) == 0.25
+assert sim.getBoolProperty(car, 'collidable') and sim.getProperty(car, 'uid') == car
+sim.setBoolProperty(car, 'collidable', False)
+assert sim.getObjectSpecialProperty(car) & sim.objectspecialproperty_collidable == 0
+sim.setIntProperty(sim.handle_app, 'signal.count', 4)
+assert sim.getInt32Signal('count') == 4 and sim.getProperty(sim.handle_app, 'platform') == sim.platform_linux
+assert car in sim.getProperty(sim.handle_scene, 'objects')
+"""
+    check(tmp_path, body)

@@ -135,3 +135,33 @@ def test_other_bytes_are_no_packed_table() -> None:
 def test_what_no_table_may_hold_is_refused() -> None:
     with pytest.raises(TypeError, match=r"sim\.packTable: "):
         SIM.packTable({"x": object()})
+
+
+def test_small_and_unsigned_integers_are_packed() -> None:
+    assert SIM.packUInt16Table([1, 65535]) == struct.pack("<2H", 1, 65535)
+    assert SIM.unpackUInt16Table(struct.pack("<2H", 7, 8), 1) == [8]
+    assert SIM.unpackUInt32Table(SIM.packUInt32Table([2**32 - 1])) == [2**32 - 1]
+
+
+def test_strings_are_added_to_a_signal_and_bytes_are_one(tmp_path: Path) -> None:
+    body = """
+sim.appendStringSignal('log', 'a')
+sim.appendStringSignal('log', 'b')
+assert sim.getStringSignal('log') == 'ab'
+sim.appendStringSignal('log', b'c')
+assert sim.getBufferSignal('log') == b'abc'
+sim.setBufferSignal('log', b'd')
+assert sim.getStringSignal('log') == b'd'
+sim.clearBufferSignal('log')
+assert sim.getStringSignal('log') is None
+"""
+    run_in_init(tmp_path, body)
+
+
+def test_rotations_of_newer_versions_are_those_of_the_older_names() -> None:
+    assert SIM.yprToAbg(0.1, 0.2, 0.3) == SIM.yawPitchRollToAlphaBetaGamma(0.1, 0.2, 0.3)
+    assert SIM.abgToYpr(0.1, 0.2, 0.3) == SIM.alphaBetaGammaToYawPitchRoll(0.1, 0.2, 0.3)
+    assert SIM.buildMatrixQ([1, 2, 3], [0, 0, 0, 1]) == [1, 0, 0, 1, 0, 1, 0, 2, 0, 0, 1, 3]
+    assert SIM.getQuaternionInverse([0.5, 0.5, 0.5, 0.5]) == [-0.5, -0.5, -0.5, 0.5]
+    assert SIM.getConfigDistance([0, 3.1], [0, -3.1], None, [0, 2]) == pytest.approx(2 * 3.14159265 - 6.2, abs=1e-6)
+    assert SIM.getConfigDistance([0, 0], [3, 2], [1, 2]) == 5.0

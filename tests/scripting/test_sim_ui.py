@@ -178,3 +178,11 @@ def test_dialogs_consoles_and_old_interfaces_keep_their_values(tmp_path: Path) -
     assert [printed[0], *printed[2:]] == ["true\tBill\t1", "1\t1\t1", "true\t250\tGo", "-1\t{0, 0}"]
     assert printed[1].startswith("false\t")
     assert "no dialog has the handle" in printed[1]
+
+
+def test_constants_are_in_tables_too() -> None:
+    assert SimUi.curve_type.time == SimUi.curve_type_time
+    assert SimUi.curve_style.scatter == SimUi.curve_style_scatter
+    assert SimUi.msgbox_result.yes == SimUi.msgbox_result_yes
+    with pytest.raises(AttributeError, match="there is no none; there are time, xy"):
+        _ = SimUi.curve_type.none

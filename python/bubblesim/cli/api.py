@@ -15,6 +15,7 @@ from bubblesim.cli.terminal import painted
 from bubblesim.scripting.api import old_names
 from bubblesim.scripting.api.functions import MODULES, ScriptFunction, functions, kinds_of
 from bubblesim.scripting.api.ik import ik_module  # noqa: F401  # register their modules
+from bubblesim.scripting.api.image import image_module  # noqa: F401  # register their modules
 from bubblesim.scripting.api.ompl import ompl_module  # noqa: F401  # register their modules
 from bubblesim.scripting.api.reference import call, text
 from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # register their modules

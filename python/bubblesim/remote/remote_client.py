@@ -102,6 +102,7 @@ class RemoteClient:
     timeout: float
     object_handle: int = -1
     is_remote: bool = True
+    in_lua: bool = False
     at_end: dict[Hashable, Hook] = field(default_factory=dict)
     in_each_step: dict[Hashable, Hook] = field(default_factory=dict)
     at_leave: dict[Hashable, Callable[[], None]] = field(default_factory=dict)

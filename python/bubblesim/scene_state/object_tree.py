@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from bubblesim._core import ObjectFrames
+from bubblesim._core import ObjectFrames, WrongObject
 from bubblesim.scene_state.dummies import Dummies, Dummy
 from bubblesim.scene_state.scene_edits import SceneEdits, relative
 
@@ -150,7 +150,7 @@ class ObjectTree:
         is_first = self.kind(handle) in ("model", "link") and self.model_above(handle) != model
         if model >= 0 and not is_first:
             path = self.short_path(self._world.model_base_of(handle))
-            raise ValueError(f"{self.path(handle)} is a part of {path} and stays there: attach the whole model")
+            raise WrongObject(f"{self.path(handle)} is a part of {path} and stays there: attach the whole model")
 
     def note_poses(self, handle: int) -> None:
         """Keep the new poses of an object of the scene, and of what moved along, where they are held or stay."""

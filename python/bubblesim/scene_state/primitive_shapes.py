@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 _DENSITY = 1000.0  # kg/m^3
 _FLAT = 1e-4  # m, height of planes and discs
-PLANE, DISC, CUBOID, SPHEROID, CYLINDER, CONE, CAPSULE = 1, 2, 3, 4, 5, 6, 7
+PLANE, DISC, CUBOID, SPHEROID, CYLINDER, CONE, CAPSULE = 1, 2, 3, 4, 5, 6, 8
 _NAMES = {
     PLANE: "Plane",
     DISC: "Disc",

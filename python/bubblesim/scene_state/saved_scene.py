@@ -158,6 +158,10 @@ def _added(
     colour = [float(part) for part in simulation.color(model)]
     text = edits.sources.get(model)
     root: Any = document.documentElement
+    if text is not None and "<uri>file://" in text and model in edits.shapes:
+        raise ValueError(
+            f"the scene cannot be saved: the triangles of /{name} were made by a program and have no file: remove it"
+        )
     if text is not None:
         found = next(iter(_children(_parsed(text).documentElement, "model")), None)
     else:

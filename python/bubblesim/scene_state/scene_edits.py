@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from bubblesim.scene_state.primitive_shapes import PrimitiveShape
+from bubblesim.scene_state.created_shapes import CreatedShape
 from bubblesim.scene_state.set_colours import SetColours
 from bubblesim.scene_state.set_numbers import SetNumbers
 
@@ -35,7 +35,7 @@ class SceneEdits:
     holds: dict[int, Hold] = field(default_factory=dict)
     placed: dict[int, list[float]] = field(default_factory=dict)
     """Poses in the world that were set while the simulation was stopped, in the order of their setting."""
-    shapes: dict[int, PrimitiveShape] = field(default_factory=dict)
+    shapes: dict[int, CreatedShape] = field(default_factory=dict)
     """Created shapes, by the handle of their model."""
     sensors: dict[int, int] = field(default_factory=dict)
     """Created sensors, by the handle of their link, which is the object that callers know."""

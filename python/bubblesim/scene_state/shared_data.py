@@ -15,6 +15,7 @@ from bubblesim.scene_state.panels import Panels
 from bubblesim.scene_state.scene_edits import SceneEdits
 from bubblesim.scene_state.stored_values import StoredValues
 from bubblesim.scene_state.tubes import Tubes
+from bubblesim.scene_state.wireless import Wireless
 
 
 class Scripts(Protocol):
@@ -28,6 +29,15 @@ class Scripts(Protocol):
 
     def call_script(self, handle: int, function: str, arguments: tuple[Any, ...]) -> Any:
         """Call a global function of an object's script; raise RuntimeError if that fails."""
+
+    def execute(self, handle: int, text: str) -> Any:
+        """Run code with the globals of an object's script, and return its value; raise RuntimeError if that fails."""
+
+    def is_confined(self, handle: int) -> bool:
+        """Return whether an object's script has no access to files and programs."""
+
+    def broadcast(self, message: Any, origin: int) -> None:
+        """Call sysCall_msg of all scripts with a message and the object of its sender, -1 for a program."""
 
     def remove_model(self, model: int) -> None:
         """Remove a model and its scripts."""
@@ -63,6 +73,7 @@ class SharedData:
     edits: SceneEdits = field(default_factory=SceneEdits)
     panels: Panels = field(default_factory=Panels)
     tubes: Tubes = field(default_factory=Tubes)
+    wireless: Wireless = field(default_factory=Wireless)
     selected: list[int] = field(default_factory=list)
     """Handles of the objects that scripts have selected."""
     vision_results: dict[int, tuple[bool, list[Any]]] = field(default_factory=dict)
@@ -83,6 +94,7 @@ class SharedData:
     def clear(self, world: Any) -> None:
         """Delete what ends with a run of a world."""
         self.signals.clear()
+        self.wireless.clear()
         self.dummies.end_run(world)
         self.drawings.end_run()
         self.collections.end_run()

@@ -32,6 +32,10 @@ class Caller(Protocol):
     """Programs that the caller started; they end with it."""
 
     @property
+    def in_lua(self) -> bool:
+        """Whether the caller is a script in Lua."""
+
+    @property
     def may_use_files(self) -> bool:
         """Whether the caller may read and write all files."""
 

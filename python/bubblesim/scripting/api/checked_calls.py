@@ -15,6 +15,7 @@ import typing
 from collections.abc import Callable, Sized
 from typing import Any, SupportsIndex, TypeVar
 
+from bubblesim._core import WrongObject
 from bubblesim.scene_state.handle_error import HandleError
 from bubblesim.scripting.api.kinds import HANDLE, PLAIN, Kind, MismatchError, shown
 from bubblesim.scripting.threads.script_thread import by_ident, current
@@ -52,6 +53,13 @@ def value_first(function: Function) -> Function:
 def any_time(function: Function) -> Function:
     """Let a script's thread call a function also outside of its turns."""
     function.any_time = True  # type: ignore[attr-defined]
+    return function
+
+
+def refusal_warns(function: Function) -> Function:
+    """Let a function that changes an object log a warning, once, where physics refuses the change (WrongObject): in
+    CoppeliaSim all objects can be changed, and a script goes on."""
+    function.refusal_warns = True  # type: ignore[attr-defined]
     return function
 
 
@@ -94,6 +102,7 @@ class Parameters:
         self._most = math.inf if variadic else fixed
         self._converters = [kind.convert if kind else _unchanged for kind in self.kinds[:fixed]]
         self._reorder = getattr(function, "reorder", None)
+        self._refusal_warns = hasattr(function, "refusal_warns")
 
     def convert(self, arguments: tuple[Any, ...], named: dict[str, Any]) -> tuple[Any, ...]:
         """Return the arguments by position, converted to their kinds; raise ArgumentError if that is impossible."""
@@ -138,6 +147,13 @@ class Parameters:
             if kind is HANDLE and value == error.handle:
                 return HandleError(error.handle, f"{self.full_name}: argument {number}, {name}: ")
         return HandleError(error.handle, f"{self.full_name}: ")
+
+    def refused(self, module: Any, error: WrongObject) -> None:
+        """Log the refusal of a change once, if the function is one of those; raise it otherwise."""
+        if not self._refusal_warns:
+            raise error
+        level = module.verbosity_scriptwarnings | module.verbosity_once
+        module.addLog(level, f"{self.full_name} has no effect: {error}")
 
     def _first_misfit(self, arguments: tuple[Any, ...]) -> str | None:
         for number, (name, kind, value) in enumerate(self._given(arguments), start=1):
@@ -192,6 +208,8 @@ def _converted(function: Callable[..., Any], parameters: Parameters) -> Callable
             return function(self, *arguments)
         except HandleError as error:
             raise parameters.located(arguments, error) from None
+        except WrongObject as error:
+            return parameters.refused(self, error)
 
     return call
 
@@ -240,6 +258,8 @@ def _with_plain_arguments(
         except HandleError as error:
             arguments = (first,) if second is _OMITTED else (first, second)
             raise parameters.located(arguments, error) from None
+        except WrongObject as error:
+            return parameters.refused(self, error)
         if second is not _OMITTED:
             return general(self, first, second, *more, **named)
         return general(self, **named) if first is _OMITTED else general(self, first, **named)

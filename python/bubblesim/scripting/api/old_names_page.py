@@ -7,6 +7,7 @@ import sys
 
 from bubblesim.scripting.api.functions import MODULES
 from bubblesim.scripting.api.ik import ik_module  # noqa: F401  # register their modules
+from bubblesim.scripting.api.image import image_module  # noqa: F401  # register their modules
 from bubblesim.scripting.api.old_names import OF_PLUGINS, OF_V_REP, RENAMED
 from bubblesim.scripting.api.ompl import ompl_module  # noqa: F401  # register their modules
 from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # register their modules

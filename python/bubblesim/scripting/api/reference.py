@@ -9,6 +9,7 @@ from collections.abc import Mapping
 
 from bubblesim.scripting.api.functions import MODULES, ScriptFunction, functions
 from bubblesim.scripting.api.ik import ik_module  # noqa: F401  # register their modules
+from bubblesim.scripting.api.image import image_module  # noqa: F401  # register their modules
 from bubblesim.scripting.api.ompl import ompl_module  # noqa: F401  # register their modules
 from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # register their modules
 from bubblesim.scripting.api.sim import remote_api_module, sim_module  # noqa: F401  # register their modules

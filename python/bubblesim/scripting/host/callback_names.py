@@ -20,6 +20,7 @@ HOOKS = (
     "sysCall_trigger",
     "sysCall_beforeSimulation",
     "sysCall_afterSimulation",
+    "sysCall_msg",
     *SUBSTEP_HOOKS,
     *PAUSE_HOOKS,
 )

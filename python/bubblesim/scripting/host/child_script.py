@@ -23,6 +23,7 @@ from bubblesim.scripting.host.file_stamps import FileStamps
 from bubblesim.scripting.host.protocols import Host
 from bubblesim.scripting.host.started_programs import Program, end_programs
 from bubblesim.scripting.language import script_output
+from bubblesim.scripting.language.python_code import PythonCode
 from bubblesim.scripting.language.script_code import ScriptCode, load_code
 from bubblesim.scripting.language.script_output import Source
 from bubblesim.scripting.language.source import ScriptSourceError, read_text
@@ -116,6 +117,11 @@ class ChildScript:
         self.shared.log.add(level, self.object_path, text.partition(": ")[2])
 
     @property
+    def in_lua(self) -> bool:
+        """Whether it is a script in Lua."""
+        return not isinstance(self._code, PythonCode)
+
+    @property
     def may_use_files(self) -> bool:
         """Whether the script may read and write all files; false for Lua scripts, unless --lua-unsafe is given."""
         return not self._code.is_confined
@@ -145,12 +151,12 @@ class ChildScript:
         """Return whether it defines a callback and may be called."""
         return self.alive and self._hooks[name] is not None
 
-    def answer(self, hook: str, data: dict[str, Any]) -> Any:
+    def answer(self, hook: str, *data: Any) -> Any:
         """Run a callback with data and return its result; None without one, and if it fails."""
         function = self._hooks[hook]
         results: list[Any] = []
         if function is not None and self._started and self.alive and not interruption.requested:
-            self.run(hook, lambda: results.append(function(data)))
+            self.run(hook, lambda: results.append(function(*data)))
         return results[0] if results else None
 
     def _start_thread(self) -> None:
@@ -267,22 +273,33 @@ class ChildScript:
 
     def call_function(self, name: str, arguments: tuple[Any, ...]) -> Any:
         """Call a global function for another caller, which gets its errors as a RuntimeError."""
-        target = self._code.function(name) if self.alive else None
-        if not self.alive:
-            raise RuntimeError(f"the child script of {self.object_path} has failed or ended: it cannot be called")
+        self._check_alive()
+        target = self._code.function(name)
         if not callable(target):
             near = did_you_mean(difflib.get_close_matches(name, self.functions(), n=2))
             raise RuntimeError(f"the child script of {self.object_path} has no function '{name}'{near}")
+        return self._answer_to_other(name, f"the function {name}", lambda: target(*arguments))
+
+    def execute(self, text: str) -> Any:
+        """Run code with its globals for another caller, which gets its errors as a RuntimeError."""
+        self._check_alive()
+        return self._answer_to_other("the code", "code from a string", lambda: self._code.execute(text))
+
+    def _check_alive(self) -> None:
+        if not self.alive:
+            raise RuntimeError(f"the child script of {self.object_path} has failed or ended: it cannot be called")
+
+    def _answer_to_other(self, name: str, what: str, action: Callable[[], Any]) -> Any:
         results: list[Any] = []
         errors: list[Exception] = []
 
         def call() -> None:
             try:
-                results.append(target(*arguments))
+                results.append(action())
             except Exception as error:  # the caller's problem: the script goes on
                 errors.append(error)
 
-        self.run(f"the function {name}", call)
+        self.run(what, call)
         if results:
             return results[0]
         why = self._code.reason(errors[0]) if errors else "it was interrupted"

@@ -21,6 +21,7 @@ from bubblesim.scene_state.object_tree import is_script_object
 from bubblesim.scene_state.problems import Problem
 from bubblesim.scene_state.shared_data import SharedData
 from bubblesim.scripting.api.ik.ik_module import SimIk
+from bubblesim.scripting.api.image.image_module import SimIm
 from bubblesim.scripting.api.ompl.ompl_module import SimOmpl
 from bubblesim.scripting.api.ros.no_ros import NoRos
 from bubblesim.scripting.api.ros.ros_modules import SimRos, SimRos2
@@ -200,6 +201,19 @@ class ScriptHost:
         """Call a global function of an object's script; raise RuntimeError if that fails."""
         return self._script_at(handle).call_function(function, arguments)
 
+    def execute(self, handle: int, text: str) -> Any:
+        """Run code with the globals of an object's script, and return its value; raise RuntimeError if that fails."""
+        return self._script_at(handle).execute(text)
+
+    def is_confined(self, handle: int) -> bool:
+        """Return whether an object's script has no access to files and programs."""
+        return not self._script_at(handle).may_use_files
+
+    def broadcast(self, message: Any, origin: int) -> None:
+        """Call sysCall_msg of all scripts with a message and the object of its sender, -1 for a program."""
+        for script in list(self.scripts):
+            script.answer("sysCall_msg", message, origin)
+
     def descriptions(self) -> list[dict[str, Any]]:
         """Return the result of sim.getScripts."""
         loaded = {script.object_handle: script for script in self.scripts}
@@ -249,6 +263,7 @@ class ScriptHost:
             "simIK": SimIk(self.runner, script),
             "simOMPL": SimOmpl(self.runner, script),
             "simVision": SimVision(self.runner, script),
+            "simIM": SimIm(self.runner, script),
             "simRemoteApi": SimRemoteApi(script),
         }
         if self.bridge is None:

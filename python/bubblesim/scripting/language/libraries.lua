@@ -3,8 +3,9 @@
 -- package. Called by sandbox.lua with
 --   globals    of the script
 --   confined   whether the script has no access to files and processes
---   host       read_file: returns the bytes of a file beside the scene or the script; getenv: returns a variable;
---              write: writes a string of output. Each raises an error that is to be passed on.
+--   host       read_file: returns the bytes of a file beside the scene or the script, or nil and why not; getenv:
+--              returns a variable; write: writes a string of output; warn: logs a warning once. Each raises an error
+--              that is to be passed on.
 --   fail       raises an error at the script's line
 local globals, confined, host, fail = ...
 
@@ -74,6 +75,29 @@ globals.bit32 = globals.bit32 or {
 
 -- Helpers of CoppeliaSim's own Lua files -----------------------------------------------------------------------------
 
+function globals.printf(form, ...)
+  local given = {...}
+  for i = 1, select("#", ...) do
+    if type(given[i]) ~= "number" then given[i] = host.shown(given[i], true) end
+  end
+  host.write(string.format(form, unpack(given, 1, select("#", ...))))
+end
+function globals.import(name, ...)
+  local names, module = {...}, globals.require(name)
+  if #names == 0 then globals[match(name, "^[^-]*")] = module end
+  for _, each in ipairs(names) do
+    if each == "*" then
+      for key, value in next, module do globals[key] = value end
+    else
+      globals[each] = module[each]
+    end
+  end
+end
+function globals.loadPlugin(name) return globals.require(name) end
+function globals.wrap(original, make) return make(original) end
+function globals.isbuffer(value) return type(value) == "string" end
+function globals.tobuffer(value) return tostring(value) end
+
 function globals.getAsString(...)
   local strings = {}
   for i = 1, select("#", ...) do strings[i] = host.shown((select(i, ...)), true) end
@@ -84,8 +108,13 @@ if not confined then return end
 
 -- os, io, package ----------------------------------------------------------------------------------------------------
 
+-- What is not allowed fails as it does for a user without permissions: scripts that only write a log go on.
 local function refused(name, why)
-  return function() fail(name .. " is not allowed in a child script: " .. why .. " (--lua-unsafe allows it)") end
+  local reason = name .. " is not allowed in a child script: " .. why .. " (--lua-unsafe allows it)"
+  return function()
+    host.warn(reason)
+    return nil, reason, 1
+  end
 end
 
 globals.os = {
@@ -96,10 +125,10 @@ globals.os = {
   getenv = function(name) return host.getenv(name) end,
   setlocale = function() return "C" end,
   execute = refused("os.execute", "start programs with sim.launchExecutable"),
-  exit = refused("os.exit", "end the simulator with sim.quitSimulator"),
+  exit = function() fail("os.exit is not allowed in a child script: end the simulator with sim.quitSimulator") end,
   remove = refused("os.remove", "it changes files"),
   rename = refused("os.rename", "it changes files"),
-  tmpname = refused("os.tmpname", "it writes files"),
+  tmpname = function() return "/tmp/lua_" .. string.format("%06x", math.random(0, 0xffffff)) end,
 }
 
 -- A file that is read from a string.
@@ -151,17 +180,17 @@ end
 function Reader:close() return true end
 function Reader:flush() return self end
 function Reader:setvbuf() return true end
-Reader.write = refused("writing to a file", "it changes files")
+function Reader:write() return self end  -- to a file that is not there
 
 local function open(name, mode)
-  mode = mode or "r"
-  if not match(mode, "^r[b]?$") then
-    fail("io.open: '" .. tostring(name) .. "' cannot be written: a child script reads files beside the scene only " ..
-      "(--lua-unsafe allows more)")
+  if match(mode or "r", "^r[b]?$") then
+    local text, problem = host.read_file(name)
+    if not text then return nil, problem, 2 end
+    return setmetatable({text = text, at = 1}, Reader)
   end
-  local text, problem = host.read_file(name)
-  if not text then return nil, problem end
-  return setmetatable({text = text, at = 1}, Reader)
+  host.warn("io.open: nothing is written to '" .. tostring(name) .. "': a child script reads files beside the scene, " ..
+    "and changes none (--lua-unsafe allows more)")
+  return setmetatable({text = "", at = 1}, Reader)
 end
 
 local output = setmetatable({text = "", at = 1, rest = ""}, Reader)
@@ -194,8 +223,11 @@ globals.io = {
   type = function(value)
     return type(value) == "table" and getmetatable(value) == Reader and "file" or nil
   end,
-  popen = refused("io.popen", "start programs with sim.launchExecutable"),
-  tmpfile = refused("io.tmpfile", "it writes files"),
+  popen = function()
+    host.warn("io.popen is not allowed in a child script: start programs with sim.launchExecutable")
+    return setmetatable({text = "", at = 1}, Reader)
+  end,
+  tmpfile = function() return setmetatable({text = "", at = 1}, Reader) end,
 }
 
 globals.package = {path = "./?.lua", cpath = "", config = "/\n;\n?\n!\n-\n", loaded = {}, preload = {}, searchers = {}}

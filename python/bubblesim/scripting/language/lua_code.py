@@ -16,6 +16,7 @@ from lupa import lua54
 
 from bubblesim.program.output import write_line
 from bubblesim.scene_state import log
+from bubblesim.scripting.api.absent_modules import ABSENT
 from bubblesim.scripting.api.functions import MODULES, caller_of, functions
 from bubblesim.scripting.api.missing_names import explain
 from bubblesim.scripting.api.old_names import note_old_name, of_v_rep, present_name
@@ -38,7 +39,10 @@ _VARIABLES = ("HOME", "LANG", "LANGUAGE", "PWD", "ROS_DISTRO", "TMPDIR", "TZ", "
 _MOST_BYTES = 64 << 20  # of a file that a script reads
 _CALL_TYPE = re.compile(r"\bsim_call_type\b")
 _CALLBACK = re.compile(r"\bsysCall_\w+")
-_OF_V_REP = re.compile(r"\bsim[A-Z]\w*\s*\(")
+_OF_V_REP = re.compile(r"\bsim(?:[A-Z]\w*|\.\w+)\s*\(")
+_LIKE_CALLBACK = re.compile(r"\bfunction\s+sys|\bsys\w*\s*=\s*function", re.IGNORECASE)
+_EACH_STEP = re.compile(r"\b(?:simHandleChildScript|sim\.handleChildScript|simGetScriptExecutionCount)\s*\(")
+_OTHER_CALL_TYPES = {"beforesimulation": 4, "aftersimulation": 5, "suspend": 6, "suspended": 7, "resume": 8}
 _PLACE_TIMEOUT = 0.3
 _MAX_MEMORY = 1 << 30  # bytes; above, a script fails with "not enough memory"
 _MAX_NAME_LENGTH = 50  # of a chunk: Lua truncates names above 59 characters
@@ -99,12 +103,27 @@ class LuaCode:
 
     def run(self) -> None:
         """Run the body of the script; that of a script of V-REP 3 becomes its callbacks."""
-        has_call_type = bool(_CALL_TYPE.search(self._text))
-        is_old_thread = not has_call_type and not _CALLBACK.search(self._text) and bool(_OF_V_REP.search(self._text))
-        if (has_call_type and not _CALLBACK.search(self._text)) or is_old_thread:
-            self._sandbox[b"make_callbacks"](self._body, is_old_thread)
+        text = self._text
+        if _CALLBACK.search(text) or _LIKE_CALLBACK.search(text):
+            self._values.run(self._body)
+        elif _CALL_TYPE.search(text):
+            more = {number: True for name, number in _OTHER_CALL_TYPES.items() if name in text}
+            self._sandbox[b"make_callbacks"](self._body, self._values.to_lua(more))
+        elif _EACH_STEP.search(text):
+            self._sandbox[b"make_step"](self._body)
+        elif _OF_V_REP.search(text):
+            self._sandbox[b"make_old_thread"](self._body)
         else:
             self._values.run(self._body)
+
+    def execute(self, text: str) -> Any:
+        """Run code with the script's globals; return the value of an expression."""
+        compiled, _ = _pair(self._sandbox[b"compile"](b"return " + text.encode(), b"=string"))
+        if compiled is None:
+            compiled, problem = _pair(self._sandbox[b"compile"](text.encode(), b"=string"))
+            if compiled is None:
+                raise ValueError(problem.decode(errors="backslashreplace"))
+        return LuaFunction(self._values, compiled, "string")()
 
     def function(self, name: str) -> Callable[..., Any] | None:
         """Return a global function of the script."""
@@ -165,7 +184,8 @@ class LuaCode:
         host[b"modules"] = self._runtime.table_from(
             {name.encode(): self._module(module) for name, module in modules.items() if module}
         )
-        host[b"absent"] = to_lua({name: no_ros.reason(name) for name, module in modules.items() if not module})
+        absent = {name: no_ros.reason(name) for name, module in modules.items() if not module}
+        host[b"absent"] = to_lua(ABSENT | absent)
         host[b"write"] = callable_from_lua(self._write)
         host[b"find_source"] = callable_from_lua(self._find_source)
         host[b"find_included"] = callable_from_lua(self._find_included)
@@ -231,19 +251,18 @@ class LuaCode:
         return found
 
     def _read_file(self, name: str | bytes) -> Any:
-        """Return the bytes of a file beside the scene or the script; nothing and the reason if it cannot be read.
-
-        :raises PermissionError: for a file elsewhere, or hidden.
-        """
+        """Return the bytes of a file beside the scene or the script; nothing and the reason if it cannot be read, with
+        a warning if it is elsewhere, or hidden."""
         scene = Path(self._modules["sim"].getStringParam(SimConstants.stringparam_scene_path))
         folders = [folder.resolve() for folder in (*self._folders, scene) if folder != Path()]
         given = Path(os.fsdecode(name))
         file = next((each for folder in folders if (each := folder / given).is_file()), folders[0] / given).resolve()
         inside = next((file.relative_to(folder) for folder in folders if file.is_relative_to(folder)), None)
         if inside is None or any(part.startswith(".") for part in inside.parts):
-            raise PermissionError(
-                f"io.open: {file} is not beside the scene or the script: --lua-unsafe lets scripts read other files"
-            )
+            sim = self._modules["sim"]
+            why = f"{file} is not beside the scene or the script: --lua-unsafe lets scripts read other files"
+            sim.addLog(sim.verbosity_scriptwarnings | sim.verbosity_once, f"io.open: {why}")
+            return None, why
         try:
             if file.stat().st_size > _MOST_BYTES:
                 raise ValueError(f"io.open: {file} has more than {_MOST_BYTES >> 20} MiB")

@@ -12,6 +12,7 @@ from types import CodeType, ModuleType, SimpleNamespace
 from typing import Any
 
 from bubblesim.messages.names import did_you_mean, unknown_attribute
+from bubblesim.scripting.api.absent_modules import ABSENT
 from bubblesim.scripting.language import script_output
 from bubblesim.scripting.language.script_output import Source
 from bubblesim.scripting.language.source import ScriptSourceError, find_file, read_text
@@ -75,6 +76,15 @@ class PythonCode:
         for part in self._parts:
             exec(part, self._globals)
 
+    def execute(self, text: str) -> Any:
+        """Run code with the script's globals; return the value of an expression."""
+        try:
+            code = compile(text.strip(), "<string>", "eval", dont_inherit=True)
+        except SyntaxError:
+            exec(compile(text, "<string>", "exec", dont_inherit=True), self._globals)
+            return None
+        return eval(code, self._globals)
+
     def function(self, name: str) -> Callable[..., Any] | None:
         """Return a global of the script."""
         return self._globals.get(name)
@@ -119,6 +129,8 @@ class PythonCode:
     def _require(self, name: str) -> Any:
         """Return the module `sim`, `simROS` or `simROS2`; a version as in 'sim-1' is ignored."""
         bare = name.partition("-")[0]
+        if bare in ABSENT:
+            raise ImportError(ABSENT[bare])
         if bare not in self._modules:
             raise ImportError(f"module '{name}' not found; require supports {', '.join(self._modules)}")
         return self._modules[bare]

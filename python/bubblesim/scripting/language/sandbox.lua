@@ -277,7 +277,9 @@ end
 
 host.libraries(globals, not host.unsafe, {
   read_file = checked(host.read_file), getenv = checked(host.getenv), write = write, shown = host.shown,
+  warn = function(text) sim.addLog(sim.verbosity_scriptwarnings | sim.verbosity_once, text) end,
 }, fail)
+host.added.utils(globals)
 
 local find_source, find_included = checked(host.find_source), checked(host.find_included)
 local required = {}
@@ -344,18 +346,26 @@ return {
 
   global = function(name) return rawget(globals, name) end,
 
-  -- Lets a script of V-REP 3, whose whole text is called, have the callbacks of today.
-  make_callbacks = function(body, is_threaded)
-    if is_threaded then
-      globals.sysCall_thread = body
-      return
-    end
-    for call, name in next, {[0] = "sysCall_init", "sysCall_actuation", "sysCall_sensing", "sysCall_cleanup"} do
-      globals[name] = function()
-        globals.sim_call_type = call
-        return body()
+  -- Lets a script of V-REP 3, whose whole text is called, have the callbacks of today: those of each step, and of the
+  -- others those with a number in `more`.
+  make_callbacks = function(body, more)
+    local names = {[0] = "sysCall_init", "sysCall_actuation", "sysCall_sensing", "sysCall_cleanup",
+      "sysCall_beforeSimulation", "sysCall_afterSimulation", "sysCall_suspend", "sysCall_suspended", "sysCall_resume"}
+    for call, name in next, names do
+      if call < 4 or more[call] then
+        globals[name] = function()
+          globals.sim_call_type = call
+          return body()
+        end
       end
     end
+  end,
+
+  -- The same for a thread of V-REP 3, and for a script of V-REP 2, which is called in each step.
+  make_old_thread = function(body) globals.sysCall_thread = body end,
+  make_step = function(body)
+    globals.sysCall_init = function() end
+    globals.sysCall_actuation = body
   end,
 
   -- Returns the global functions of the script by name, as short_src:line.

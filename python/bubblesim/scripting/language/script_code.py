@@ -23,6 +23,9 @@ class ScriptCode(Protocol):
     def run(self) -> None:
         """Run the body, which defines the script's functions."""
 
+    def execute(self, text: str) -> Any:
+        """Run code with the script's globals; return the value of an expression."""
+
     def function(self, name: str) -> Callable[..., Any] | None:
         """Return a global of the script."""
 

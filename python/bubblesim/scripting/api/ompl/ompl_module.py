@@ -7,9 +7,9 @@ import contextlib
 from collections.abc import Iterator
 from typing import Any
 
-from bubblesim.messages.names import unknown_attribute
 from bubblesim.scripting.api.functions import script_module
 from bubblesim.scripting.api.kinds import Integers, Numbers
+from bubblesim.scripting.api.named_constants import Names
 from bubblesim.scripting.api.ompl.spaces import Space
 from bubblesim.scripting.api.ompl.tasks import Task
 from bubblesim.scripting.api.sim.sim_module import SimApi
@@ -17,16 +17,6 @@ from bubblesim.scripting.caller import Caller
 
 _ALGORITHMS = ("RRT", "RRTConnect", "RRTstar", "PRM", "PRMstar", "BKPIECE1", "KPIECE1", "LBKPIECE1", "FMT", "BFMT")
 _MOST = 1000  # tasks and spaces of a script
-
-
-class Names(dict[str, Any]):
-    """Constants by name, as attributes in Python."""
-
-    def __getattr__(self, name: str) -> Any:
-        """Return a constant."""
-        if name in self:
-            return self[name]
-        raise unknown_attribute(f"there is no {name}; there are {', '.join(self)}")
 
 
 @script_module("simOMPL")

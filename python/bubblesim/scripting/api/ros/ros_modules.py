@@ -49,7 +49,8 @@ class SimRos(RosServices, RosTransforms, RosImages, RosParameters):
         if hints.wants_udp:
             self._warn(f"'{topic}' is subscribed over TCP: UDP is not supported")
         guarded = self._caller.callback(callback)
-        return self._subscribe(topic, message_type, guarded, _core.Qos(queue_size, tcp_no_delay=hints.tcp_no_delay))
+        qos = _core.Qos(queue_size, tcp_no_delay=hints.tcp_no_delay)
+        return self._subscribe(topic, message_type, guarded, qos, for_script=True)
 
     def shutdownSubscriber(self, subscriber: RosHandle) -> None:
         """Shut down a subscriber; its handle becomes invalid."""
@@ -128,7 +129,8 @@ class SimRos2(RosServices, RosTransforms, RosImages, RosParameters, RosActions):
         ``qos`` is as in createPublisher. In ROS 1, whether the last message is sent on connection depends on the
         publisher alone.
         """
-        return self._subscribe(topic, message_type, self._caller.callback(callback), read_qos(qos, self._is_ros2))
+        guarded = self._caller.callback(callback)
+        return self._subscribe(topic, message_type, guarded, read_qos(qos, self._is_ros2), for_script=True)
 
     def shutdownSubscription(self, subscriber: RosHandle) -> None:
         """Shut down a subscriber; its handle becomes invalid."""
@@ -151,7 +153,8 @@ class SimRos2(RosServices, RosTransforms, RosImages, RosParameters, RosActions):
         self._shutdown_server(server)
 
     def subscriptionTreatUInt8ArrayAsString(self, subscriber: RosHandle) -> None:
-        """Do nothing; for older scripts: uint8[] is always bytes."""
+        """Let uint8[] of received messages be strings in Lua, not tables; in Python they are always bytes."""
+        self._as_strings.add(subscriber)
 
     def clientTreatUInt8ArrayAsString(self, client: RosHandle) -> None:
         """Do nothing; for older scripts: uint8[] is always bytes."""

@@ -31,6 +31,7 @@ class RosTopics(RosContext):
         self._checked: set[int] = set()  # publishers with a recently checked message
         self._first_checked: set[int] = set()  # publishers with at least one checked message
         self._next_checks = 0.0  # simulation time
+        self._as_strings: set[int] = set()  # subscribers whose uint8[] are strings in Lua, too
 
     @checked_on_failure
     def publish(self, publisher: RosHandle, message: Message) -> None:
@@ -60,7 +61,8 @@ class RosTopics(RosContext):
         """Do nothing; for older scripts: uint8[] is always bytes."""
 
     def subscriberTreatUInt8ArrayAsString(self, subscriber: RosHandle) -> None:
-        """Do nothing; for older scripts: uint8[] is always bytes."""
+        """Let uint8[] of received messages be strings in Lua, not tables; in Python they are always bytes."""
+        self._as_strings.add(subscriber)
 
     def _advertise(self, topic: str, message_type: str, qos: _core.Qos | int) -> int:
         message_type = with_slashes(message_type)
@@ -94,14 +96,25 @@ class RosTopics(RosContext):
         message_type: str,
         guarded: Callable[[dict[str, Any]], None],
         qos: _core.Qos | int,
+        *,
+        for_script: bool = False,
     ) -> int:
+        """Subscribe; ``for_script``: the script gets the messages as they are."""
         message_type = with_slashes(message_type)
-        subscriber = int(self._bridge.subscribe(topic, message_type, guarded, qos, self._time_form))
+        made: list[int] = []
+
+        def with_tables(message: dict[str, Any]) -> None:
+            guarded(message if made[0] in self._as_strings else _without_bytes(message))
+
+        callback = with_tables if for_script and self._caller.in_lua else guarded
+        subscriber = int(self._bridge.subscribe(topic, message_type, callback, qos, self._time_form))
+        made.append(subscriber)
         self._caller.at_end["subscriber", subscriber] = lambda: self._bridge.shutdown_subscriber(subscriber)
         return subscriber
 
     def _shutdown_subscriber(self, subscriber: int) -> None:
         self._bridge.shutdown_subscriber(subscriber)
+        self._as_strings.discard(subscriber)
         self._caller.at_end.pop(("subscriber", subscriber), None)
 
     def _warn_of_another_clock(self, topic: str, message: Message) -> None:
@@ -119,3 +132,14 @@ class RosTopics(RosContext):
                 f"stamp with {self._module}.getTime()",
             )
             return
+
+
+def _without_bytes(value: Any) -> Any:
+    """Return a message with lists of integers in place of bytes."""
+    if isinstance(value, bytes):
+        return list(value)
+    if isinstance(value, dict):
+        return {name: _without_bytes(field) for name, field in value.items()}
+    if isinstance(value, list) and value and isinstance(value[0], dict | bytes):
+        return [_without_bytes(each) for each in value]
+    return value

@@ -17,24 +17,6 @@ class AcceptedFunctions(LogFunctions):
         """Return a dummy in place of a force sensor: sensors are made in the scene's file."""
         return self._stand_in_for("Force_sensor", "createForceSensor", "it is a dummy, which measures nothing")
 
-    def createOctree(self, size: float, options: int = 0, point_size: float = 1.0, reserved: Any = None) -> int:
-        """Return a dummy in place of an octree."""
-        return self._stand_in_for("Octree", "createOctree", "it is a dummy")
-
-    def createShape(
-        self,
-        options: int,
-        shading_angle: float,
-        vertices: Numbers,
-        indices: Numbers,
-        normals: Any = None,
-        coordinates: Any = None,
-        texture: Any = None,
-        resolution: Any = None,
-    ) -> int:
-        """Return a dummy in place of a shape of triangles: such shapes are made in the scene's file."""
-        return self._stand_in_for("Shape", "createShape", "a shape of triangles is a dummy here")
-
     def setLinkDummy(self, dummy: Handle, other: int) -> int:
         """Keep which dummy is linked to another one; -1: none. Return 1."""
         first = self._resolve(dummy)
@@ -83,35 +65,6 @@ class AcceptedFunctions(LogFunctions):
         )
         return -1
 
-    def getIkGroupHandle(self, name: str) -> int:
-        """Accept the name of an IK group of old scenes, which are not read, with a warning: use simIK. Return 0."""
-        self._warn("getIkGroupHandle", f"the IK group '{name}' is not read from old scenes: use simIK")
-        return 0
-
-    def handleIkGroup(self, group: int = -2) -> int:
-        """Return sim.ikresult_not_performed: IK groups of old scenes are not read; use simIK."""
-        return self.ikresult_not_performed
-
-    def setIkGroupProperties(self, group: int, method: int, iterations: int, damping: float, more: Any = None) -> int:
-        """Accept the settings of an IK group of old scenes; return 1."""
-        return 1
-
-    def setIkElementProperties(
-        self, group: int, tip: int, constraints: int, precision: Any = None, weight: Any = None, more: Any = None
-    ) -> int:
-        """Accept the settings of an element of an IK group of old scenes; return 1."""
-        return 1
-
-    def computeJacobian(self, group: int, options: int = 0, more: Any = None) -> int:
-        """Return -1: IK groups of old scenes are not read; use simIK.computeJacobian."""
-        self._warn("computeJacobian", "IK groups are not read from old scenes: use simIK")
-        return -1
-
-    def getIkGroupMatrix(self, group: int, options: int = 0) -> tuple[list[float], list[int]]:
-        """Return an empty matrix: IK groups of old scenes are not read; use simIK.getJacobian."""
-        self._warn("getIkGroupMatrix", "IK groups are not read from old scenes: use simIK")
-        return [], [0, 0]
-
     def addObjectCustomData(self, handle: Handle, header: int, data: Any, size: Any = None) -> int:
         """Attach bytes or a string to an object by a number (old name of writeCustomDataBlock); return 1."""
         owner = self._resolve(handle)
@@ -157,9 +110,6 @@ class AcceptedFunctions(LogFunctions):
     def removeBanner(self, banner: int) -> int:
         """Accept the handle of a banner; return 1."""
         return 1
-
-    def broadcastMsg(self, message: Any, options: int = 0) -> None:
-        """Accept a message for callbacks sysCall_msg, which are not called."""
 
     def setStepper(self, *arguments: Any) -> None:
         """Accept who steps the simulation."""

@@ -3,10 +3,11 @@
 
 from __future__ import annotations
 
+from bubblesim.scripting.api.sim.more_constants import MoreConstants
 from bubblesim.scripting.api.sim.parameter_constants import ParameterConstants
 
 
-class SimConstants(ParameterConstants):
+class SimConstants(MoreConstants, ParameterConstants):
     """Base class of the `sim` module."""
 
     handle_world = -1
@@ -191,9 +192,9 @@ class SimConstants(ParameterConstants):
     primitiveshape_spheroid = 4
     primitiveshape_cylinder = 5
     primitiveshape_cone = 6
-    primitiveshape_capsule = 7
+    primitiveshape_heightfield = 7
+    primitiveshape_capsule = 8
     primitiveshape_none = 0
-    primitiveshape_heightfield = 8
     pure_primitive_plane = 1
     pure_primitive_disc = 2
     pure_primitive_cuboid = 3
@@ -368,6 +369,6 @@ class SimConstants(ParameterConstants):
     buffer_uint8bgr = 9
     buffer_uint8rgba = 10
     buffer_uint8argb = 11
-    buffer_base = 12
-    buffer_split = 64
-    buffer_clamp = 128
+    buffer_base64 = 12
+    buffer_split = 13
+    buffer_clamp = 256

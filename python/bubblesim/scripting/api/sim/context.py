@@ -28,6 +28,8 @@ class ApiContext(SimConstants):
         """its particles, and"""
         self._clouds: dict[int, list[list[float]]] = {}
         """the points of its clouds."""
+        self._octrees: dict[int, Any] = {}
+        """Size and voxels of its octrees."""
         self._tree = ObjectTree(self._world, caller.shared.dummies, self._edits)
 
     def _is_stopped(self) -> bool:

@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from copy import copy as copied
 from typing import Any
 
-from bubblesim._core import add_copy, copy_model
+from bubblesim._core import WrongObject, add_copy, copy_model
+from bubblesim.scene_state.created_shapes import CreatedShape
 from bubblesim.scene_state.primitive_shapes import PrimitiveShape
 from bubblesim.scene_state.text_shapes import text_sdf
+from bubblesim.scripting.api.checked_calls import refusal_warns
 from bubblesim.scripting.api.kinds import Handle, Integers, Numbers, Vector3
 from bubblesim.scripting.api.sim.logs import LogFunctions
 from bubblesim.scripting.api.sim.object_changes import ObjectChangeFunctions
@@ -101,6 +103,7 @@ class CreatedObjectFunctions(ObjectChangeFunctions, LogFunctions):
         shades = [float(part) for part in colour] if isinstance(colour, list | tuple) else [1.0, 1.0, 1.0]
         return self._tree.object_of(self._add_model(text_sdf(text, shades[:3], height, centred=centred), "Text"))
 
+    @refusal_warns
     def removeObjects(self, handles: Integers, delayed: bool = False) -> int:
         """Remove dummies and whole models; return their number. ``delayed`` has no effect.
 
@@ -119,10 +122,12 @@ class CreatedObjectFunctions(ObjectChangeFunctions, LogFunctions):
                     self._remove_model(model)
         return len(handles)
 
+    @refusal_warns
     def removeObject(self, handle: Handle) -> int:
         """Remove a dummy or a whole model (old name)."""
         return self.removeObjects([handle])
 
+    @refusal_warns
     def removeModel(self, handle: Handle, delayed: bool = False) -> int:
         """Remove a model with all its objects, or a dummy; return 1."""
         return self.removeObjects([handle])
@@ -168,7 +173,7 @@ class CreatedObjectFunctions(ObjectChangeFunctions, LogFunctions):
         else:
             edits.originals[made] = edits.originals.get(model, str(self._world.name(model)))
         if model in edits.shapes:
-            edits.shapes[made] = replace(edits.shapes[model])
+            edits.shapes[made] = copied(edits.shapes[model])
         if model in edits.static:
             edits.static.add(made)
         edits.colours.give(self._simulation, made, edits.colours.of(self._world, model))
@@ -176,7 +181,7 @@ class CreatedObjectFunctions(ObjectChangeFunctions, LogFunctions):
         self._update_hold(made)
         return self._tree.object_of(made)
 
-    def _add_shape(self, shape: PrimitiveShape) -> int:
+    def _add_shape(self, shape: CreatedShape) -> int:
         model = self._add_model(shape.sdf(), shape.name)
         self._edits.shapes[model] = shape
         self._tree.set_pose(model, self._tree.pose(model))  # where it is after a stop
@@ -191,4 +196,4 @@ class CreatedObjectFunctions(ObjectChangeFunctions, LogFunctions):
         model = self._tree.model(handle)
         if model < 0 or self._tree.object_of(model) != handle:
             path = self._tree.short_path(handle)
-            raise ValueError(f"{path} cannot be removed on its own: remove the whole model, or a dummy")
+            raise WrongObject(f"{path} cannot be removed on its own: remove the whole model, or a dummy")

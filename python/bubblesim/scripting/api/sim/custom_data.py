@@ -89,7 +89,7 @@ class CustomDataFunctions(SignalFunctions):
             self._clear(kind, self._signal(target, name))
 
     def _key(self, handle: int, tag: str) -> tuple[int, str]:
-        if handle != self.handle_scene:
+        if handle not in (self.handle_scene, self.handle_app):
             handle = self._resolve(handle)
             self._tree.kind(handle)  # raises
         return handle, tag
@@ -113,4 +113,4 @@ class CustomDataFunctions(SignalFunctions):
 
     def _of_file(self, owner: int) -> dict[str, bytes]:
         """Return the data that the scene's file attaches to an object."""
-        return {} if owner == self.handle_scene else self._world.file_data(owner)
+        return {} if owner < 0 else self._world.file_data(owner)

@@ -5,14 +5,17 @@ from __future__ import annotations
 
 import math
 
+from bubblesim.scene_state.compound_shapes import CompoundShape
+from bubblesim.scene_state.primitive_shapes import PrimitiveShape
 from bubblesim.scripting.api.kinds import Handle
+from bubblesim.scripting.api.sim.logs import LogFunctions
 from bubblesim.scripting.api.sim.object_changes import ObjectChangeFunctions
 from bubblesim.scripting.api.sim.object_collections import CollectionFunctions
 
 _NO_LIMIT = 1e9  # m
 
 
-class DistanceFunctions(ObjectChangeFunctions, CollectionFunctions):
+class DistanceFunctions(ObjectChangeFunctions, CollectionFunctions, LogFunctions):
     """Entities are shapes, models (with all their links), collections and sim.handle_all, which is all but the other
     entity. They are the shapes that collide, as physics sees them; shapes without the special property collidable or
     measurable are left out."""
@@ -43,12 +46,14 @@ class DistanceFunctions(ObjectChangeFunctions, CollectionFunctions):
         return 1, [*on_first, *on_second, distance], [self._shape_of(link), self._shape_of(other)]
 
     def getCollisionHandle(self, name: str) -> int:
-        """Raise LookupError: collision objects of old scenes are not read; use checkCollision."""
-        raise LookupError(f"the collision object '{name}' is not read from old scenes: use sim.checkCollision")
+        """Accept the name of a collision object of old scenes, with a warning: use checkCollision. Return 0."""
+        self._use("getCollisionHandle", f"the collision object '{name}' is not read: use sim.checkCollision")
+        return 0
 
     def getDistanceHandle(self, name: str) -> int:
-        """Raise LookupError: distance objects of old scenes are not read; use checkDistance."""
-        raise LookupError(f"the distance object '{name}' is not read from old scenes: use sim.checkDistance")
+        """Accept the name of a distance object of old scenes, with a warning: use checkDistance. Return 0."""
+        self._use("getDistanceHandle", f"the distance object '{name}' is not read: use sim.checkDistance")
+        return 0
 
     def handleCollision(self, collision: int = -2) -> int:
         """Return 0: there are no collision objects (main scripts)."""
@@ -85,9 +90,9 @@ class DistanceFunctions(ObjectChangeFunctions, CollectionFunctions):
         it."""
         handle = self._resolve(shape)
         made = self._edits.shapes.get(self._tree.model(handle))
-        if made is not None:
+        if isinstance(made, PrimitiveShape):
             return 2, made.kind, [*made.sizes, 0.0]
-        return 0, self.primitiveshape_none, [*self.getShapeBB(shape), 0.0]
+        return int(isinstance(made, CompoundShape)), self.primitiveshape_none, [*self.getShapeBB(shape), 0.0]
 
     def getShapeMassAndInertia(self, shape: Handle, matrix: object = None) -> tuple[float, list[float], list[float]]:
         """Return mass (kg), inertia (kg m^2, a 3x3 matrix about the centre of mass, in the shape's axes) and the
@@ -113,6 +118,9 @@ class DistanceFunctions(ObjectChangeFunctions, CollectionFunctions):
             raise ValueError(f"the density of a shape must be positive, found {density:g}")
         self.setShapeMass(shape, density * math.prod(self.getShapeBB(shape)))
         return 1
+
+    def _use(self, function: str, why: str) -> None:
+        self.addLog(self.verbosity_scriptwarnings | self.verbosity_once, f"sim.{function}: {why}")
 
     def _bounds(self, handle: int) -> tuple[list[float], list[float]]:
         found = self._world.bounds(self._links(handle), self._tree.pose(handle))

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
+from bubblesim.scripting.api.checked_calls import refusal_warns
 from bubblesim.scripting.api.kinds import Handle, Kind, Vector3, numbers
 from bubblesim.scripting.api.sim.context import ApiContext
 
@@ -24,11 +25,13 @@ class ForceFunctions(ApiContext):
     canonical link. sim.handleflag_resetforce and sim.handleflag_resettorque, added to the handle, remove what was added
     before for that step."""
 
+    @refusal_warns
     def addForce(self, handle: Handle, position: Vector3, force: Vector3) -> None:
         """Push a model or link at a point; ``position`` and ``force`` are in its frame."""
         target = self._reset(handle)
         self._world.apply_wrench(target, force, point=position, local=True)
 
+    @refusal_warns
     def addForceAndTorque(self, handle: Handle, force: OptionalVector3 = ZERO, torque: OptionalVector3 = ZERO) -> None:
         """Push a model or link at its centre of mass; ``force`` and ``torque`` are in world axes."""
         target = self._reset(handle)

@@ -6,7 +6,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from bubblesim._core import MotorMode
+from bubblesim._core import MotorMode, WrongObject
+from bubblesim.scripting.api.checked_calls import refusal_warns
 from bubblesim.scripting.api.kinds import Handle, Numbers
 from bubblesim.scripting.api.sim.context import ApiContext
 
@@ -34,11 +35,14 @@ class JointFunctions(ApiContext):
             return True, [-math.pi, math.tau]
         return False, [lower, upper - lower]
 
+    @refusal_warns
     def setJointInterval(self, joint: Handle, cyclic: bool, interval: Numbers) -> None:
         """Set the limits of a joint that a script created: whether it has none, and [lower limit, range]."""
         joint = self._resolve(joint)
         if not cyclic and (len(interval) != 2 or not interval[1] >= 0):
             raise ValueError(f"an interval is a lower limit and a range of at least 0, found {interval}")
+        if not self._tree.is_created_dummy(joint):
+            raise WrongObject(f"{self._tree.short_path(joint)} has the limits of its file")
         limits = (-math.inf, math.inf) if cyclic else (interval[0], interval[0] + interval[1])
         self._world.set_joint_limits(joint, *limits)
 
@@ -108,6 +112,7 @@ class JointFunctions(ApiContext):
         """Return the maximum force or torque of the joint's motor (old name)."""
         return float(self._world.max_force(self._resolve(joint)))
 
+    @refusal_warns
     def setJointMode(self, joint: Handle, mode: int, options: int = 0) -> None:
         """Let physics move a joint (sim.jointmode_dynamic), or only setJointPosition (sim.jointmode_kinematic).
 
@@ -120,7 +125,7 @@ class JointFunctions(ApiContext):
             return
         if self._world.is_kinematic(joint) or self._world.joint_type(joint) in ("fixed", "ball"):
             path = self._tree.short_path(joint)
-            raise ValueError(f"the mode of {path} cannot be changed: physics moves nothing by it, or only as a whole")
+            raise WrongObject(f"the mode of {path} cannot be changed: physics moves nothing by it, or only as a whole")
         if is_dynamic:
             motor, force = self._edits.held_joints.pop(joint)
             self._world.set_motor_mode(joint, motor)

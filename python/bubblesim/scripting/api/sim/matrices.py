@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from bubblesim.geometry import poses, rotations
-from bubblesim.scripting.api.kinds import Numbers, Vector3, Vector7, Vector12
+from bubblesim.scripting.api.kinds import Numbers, Vector3, Vector4, Vector7, Vector12
 from bubblesim.scripting.api.sim.context import ApiContext
 
 Vector = list[float]
@@ -24,6 +24,15 @@ class MatrixFunctions(ApiContext):
     def buildPose(self, position: Vector3, angles: Vector3) -> Vector:
         """Return the pose of a position and Euler angles."""
         return [*position, *rotations.quaternion_of_euler(angles)]
+
+    def buildMatrixQ(self, position: Vector3, quaternion: Vector4) -> Vector:
+        """Return the matrix of a position and a quaternion."""
+        return rotations.matrix_of_pose([*position, *quaternion])
+
+    def getQuaternionInverse(self, quaternion: Vector4) -> Vector:
+        """Return the inverse of a quaternion."""
+        x, y, z, w = quaternion
+        return [-x, -y, -z, w]
 
     def poseToMatrix(self, pose: Vector7) -> Vector:
         """Return the matrix of a pose."""
@@ -122,3 +131,11 @@ class MatrixFunctions(ApiContext):
         # R = Rz(yaw) Ry(pitch) Rx(roll): the Euler angles of its inverse are -roll, -pitch and -yaw.
         roll, pitch, yaw = rotations.euler_angles([-x, -y, -z, w])
         return -yaw, -pitch, -roll
+
+    def yprToAbg(self, yaw: float, pitch: float, roll: float) -> tuple[float, float, float]:
+        """Return the Euler angles of yaw, pitch and roll (newer name of yawPitchRollToAlphaBetaGamma)."""
+        return self.yawPitchRollToAlphaBetaGamma(yaw, pitch, roll)
+
+    def abgToYpr(self, alpha: float, beta: float, gamma: float) -> tuple[float, float, float]:
+        """Return yaw, pitch and roll of Euler angles (newer name of alphaBetaGammaToYawPitchRoll)."""
+        return self.alphaBetaGammaToYawPitchRoll(alpha, beta, gamma)

@@ -6,8 +6,10 @@ from __future__ import annotations
 import contextlib
 from pathlib import Path
 
-from bubblesim._core import StandIn, sensor_kind
+from bubblesim._core import StandIn, WrongObject, sensor_kind
+from bubblesim.scene_state.compound_shapes import CompoundShape
 from bubblesim.scene_state.scene_edits import Hold, relative
+from bubblesim.scripting.api.checked_calls import refusal_warns
 from bubblesim.scripting.api.kinds import Handle, Vector3
 from bubblesim.scripting.api.sim.context import ApiContext
 from bubblesim.scripting.threads import script_thread
@@ -34,6 +36,7 @@ class ObjectChangeFunctions(ApiContext):
         """Name an object (old style)."""
         self.setObjectAlias(handle, name)
 
+    @refusal_warns
     def setObjectParent(self, handle: Handle, parent: int, keep_in_place: bool = True) -> None:
         """Attach an object to another one or, with -1, to the world. ``keep_in_place``: its pose in the world stays,
         else its pose relative to the parent.
@@ -52,6 +55,7 @@ class ObjectChangeFunctions(ApiContext):
         if self._tree.kind(handle) in ("model", "link"):
             self._update_hold(self._tree.model(handle))
 
+    @refusal_warns
     def setObjectColor(self, handle: Handle, index: int, component: int, colour: Vector3) -> bool:
         """Set a colour of a model, a link or a dummy: red, green, blue from 0 to 1. See setShapeColor."""
         self.setShapeColor(handle, None, component, colour)
@@ -61,6 +65,7 @@ class ObjectChangeFunctions(ApiContext):
         """Return a colour of a model, a link or a dummy; None (nil) if it has none. See getShapeColor."""
         return self._colour(self._resolve(handle), component)
 
+    @refusal_warns
     def setShapeColor(self, handle: Handle, name: object, component: int, colour: Vector3) -> None:
         """Set the colour of all visuals of a model or link, which cameras see: red, green, blue from 0 to 1.
 
@@ -87,11 +92,13 @@ class ObjectChangeFunctions(ApiContext):
             return False
         return not self._is_static(handle)
 
+    @refusal_warns
     def resetDynamicObject(self, handle: Handle) -> None:
         """Set the velocity of a model or link to 0."""
         handle = self._resolve(handle)
         self._world.set_state(handle, self._world.pose(handle), [0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
 
+    @refusal_warns
     def setShapeMass(self, handle: Handle, mass: float) -> None:
         """Set the mass, kg, of a link or of all links of a model; the inertia is scaled by the same factor.
 
@@ -127,9 +134,9 @@ class ObjectChangeFunctions(ApiContext):
         model = int(self._world.outermost_model_of(handle))
         if static == self._is_static(model):
             return
-        if self._world.is_static(model):
+        if self._world.is_static(model) and model not in self._edits.shapes:
             path = self._tree.short_path(model)
-            raise ValueError(f"{path} is static in the scene's file: physics cannot move it")
+            raise WrongObject(f"{path} is static in the scene's file: physics cannot move it")
         self._edits.begin_change()
         (self._edits.static.add if static else self._edits.static.discard)(model)
         if shape := self._edits.shapes.get(model):
@@ -148,7 +155,7 @@ class ObjectChangeFunctions(ApiContext):
             return
         if model not in self._edits.shapes:
             path = self._tree.short_path(model)
-            raise ValueError(f"{path} collides as the scene's file defines; only created shapes can be changed")
+            raise WrongObject(f"{path} collides as the scene's file defines; only created shapes can be changed")
         self._edits.shapes[model].respondable = respondable
         self._rebuild(model)
 
@@ -173,6 +180,8 @@ class ObjectChangeFunctions(ApiContext):
         linear, angular = self._world.velocity(model)
         known, name, parent = self._shown(model), self._tree.name(model), self._tree.parent(model)
         colour, static, placed = self._simulation.color(model), model in edits.static, edits.placed.get(model)
+        # The parts of a group have colours of their own.
+        is_painted = not isinstance(shape, CompoundShape) or any(edits.colours.of(self._world, model))
         attached = self._tree.children(model)
         attached = [child for child in attached if self._tree.is_created_dummy(child) or child in edits.parents]
         for child in attached:
@@ -182,8 +191,12 @@ class ObjectChangeFunctions(ApiContext):
         anew = self._add_model(shape.sdf(), shape.name)
         edits.replaced[known] = anew
         edits.shapes[anew] = shape
-        self._world.set_state(anew, pose, list(linear), list(angular))
-        self._edits.colours.set(self._simulation, anew, colour)
+        if self._world.is_static(anew):
+            self._world.set_pose(anew, pose)
+        else:
+            self._world.set_state(anew, pose, list(linear), list(angular))
+        if is_painted:
+            self._edits.colours.set(self._simulation, anew, colour)
         if self._tree.name(anew) != name:
             self._tree.set_name(anew, name)
         if parent >= 0:

@@ -47,6 +47,36 @@ class CollectionFunctions(ApiContext):
         self._collection(collection)
         self._caller.shared.collections.remove(collection)
 
+    def addObjectToCollection(self, collection: Handle, handle: int, what: int, options: int = 0) -> int:
+        """Add objects (old name of addItemToCollection, with other arguments); return 1."""
+        self.addItemToCollection(collection, what, handle, options)
+        return 1
+
+    def emptyCollection(self, collection: Handle) -> int:
+        """Remove a collection, as in the original (old name of destroyCollection); return 1."""
+        self.destroyCollection(collection)
+        return 1
+
+    def removeCollection(self, collection: Handle) -> int:
+        """Remove a collection (old name of destroyCollection); return 1."""
+        self.destroyCollection(collection)
+        return 1
+
+    def getCollectionName(self, collection: Handle) -> str:
+        """Return the name of a collection that scripts have named, else an empty string (old name)."""
+        self._collection(collection)
+        names = self._caller.shared.collections.by_name
+        return next((name for name, handle in names.items() if handle == collection), "")
+
+    def setCollectionName(self, collection: Handle, name: str) -> int:
+        """Name a collection, for getCollectionHandle (old name); return 1."""
+        self._collection(collection)
+        names = self._caller.shared.collections.by_name
+        for known in [known for known, handle in names.items() if handle == collection]:
+            del names[known]
+        names[name] = collection
+        return 1
+
     def _collection(self, handle: int) -> Collection:
         try:
             return self._caller.shared.collections.by_handle[handle]

@@ -7,7 +7,8 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from bubblesim._core import camera_optics
+from bubblesim._core import WrongObject, camera_optics
+from bubblesim.scripting.api.checked_calls import refusal_warns
 from bubblesim.scripting.api.kinds import Handle
 from bubblesim.scripting.api.sim.joints import JointFunctions
 from bubblesim.scripting.api.sim.object_changes import ObjectChangeFunctions
@@ -32,6 +33,7 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         read = self._integers().get(parameter)
         return int(self._kept(int, handle, parameter) if read is None else read(handle))
 
+    @refusal_warns
     def setObjectInt32Param(self, handle: Handle, parameter: int, value: int) -> None:
         """Set sim.jointintparam_dynctrlmode, the control mode of a joint, or motor_enabled and ctrl_enabled, or
         proxintparam_entity_to_detect, the object or collection that a proximity sensor detects, until the scene is
@@ -43,7 +45,7 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
             write(handle, value)
         elif parameter in self._integers():
             if self._integers()[parameter](handle) != value:
-                raise ValueError(f"{self._parameter_name(parameter)} cannot be set")
+                raise WrongObject(f"{self._parameter_name(parameter)} of {self._tree.short_path(handle)} cannot be set")
         else:
             self._keep(int, handle, parameter, value)
 
@@ -58,6 +60,7 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         read = self._floats().get(parameter)
         return float(self._kept(float, handle, parameter) if read is None else read(handle))
 
+    @refusal_warns
     def setObjectFloatParam(self, handle: Handle, parameter: int, value: float) -> None:
         """Set a number of an object: sim.shapefloatparam_mass (kg); sim.shapefloatparam_init_velocity_x, y, z (m/s) and
         init_velocity_a, b, g (rad/s) give a model or link that velocity now, in world axes."""
@@ -71,7 +74,7 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
             self._world.set_state(handle, self._world.pose(handle), linear, angular)
         elif parameter in self._floats():
             if not math.isclose(self._floats()[parameter](handle), value, rel_tol=1e-6, abs_tol=1e-9):
-                raise ValueError(f"{self._parameter_name(parameter)} cannot be set")
+                raise WrongObject(f"{self._parameter_name(parameter)} of {self._tree.short_path(handle)} cannot be set")
         else:
             self._keep(float, handle, parameter, value)
 
@@ -248,7 +251,10 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         return self._caller.shared.collections.detected.get(self._sensor(sensor), self.handle_all)
 
     def _set_entity_to_detect(self, sensor: int, entity: int) -> None:
-        self._world.sonar_limits(self._sensor(sensor))  # raises
+        try:
+            self._world.sonar_limits(self._sensor(sensor))
+        except WrongObject as error:  # no change that physics refuses: it is no sensor
+            raise ValueError(str(error)) from None
         entity = self.handle_all if entity == -1 else entity  # old programs
         if not self._is_entity(entity):
             raise ValueError(f"{entity} is neither an object nor a collection nor sim.handle_all")

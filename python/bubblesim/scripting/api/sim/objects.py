@@ -12,7 +12,7 @@ from bubblesim.geometry import poses, rotations
 from bubblesim.program.output import write_line
 from bubblesim.scene_state import log
 from bubblesim.scene_state.handle_error import MAX_HANDLE
-from bubblesim.scripting.api.checked_calls import value_first
+from bubblesim.scripting.api.checked_calls import refusal_warns, value_first
 from bubblesim.scripting.api.kinds import (
     INTEGER,
     NO_OPTIONS,
@@ -62,12 +62,18 @@ class ObjectFunctions(ApiContext):
         """Return the handle of the object with the name ``name``, anywhere in the scene (old style).
 
         For sim.handle_self: the object that the script is attached to. Copies are named 'name#0', 'name#1' ...: a
-        script whose object has such a name finds the objects of its own copy, and 'name#' is the first object.
+        script whose object has such a name finds the objects of its own copy, and 'name#' is the first object. With
+        '@silentError' behind the name, -1 stands for an object that is not there.
         """
         if isinstance(name, int):
             return self._shown(self._resolve(name))
+        name, _, mark = name.partition("@")
+        if mark == "silentError":
+            options = {**options, "noError": True}
         if name.startswith(("/", ".", ":")):
             return self.getObject(name, options)
+        if not name:
+            raise ValueError("sim.getObjectHandle: the name is empty")
         start = self._caller.object_handle
         own_name = (self._world.old_name(start) or str(self._world.name(start))) if start >= 0 else ""
         own_copy = own_name.partition("#")[1:]
@@ -178,6 +184,7 @@ class ObjectFunctions(ApiContext):
         """Return [x, y, z, qx, qy, qz, qw], in the world or relative to another object (a joint: its moving frame)."""
         return self._pose(handle, relative_to)
 
+    @refusal_warns
     @value_first
     def setObjectPose(self, handle: Handle, pose: Vector7, relative_to: Handle = WORLD) -> None:
         """Set the pose of a model, link or dummy. Also accepts the old order (handle, relative_to, pose)."""
@@ -187,6 +194,7 @@ class ObjectFunctions(ApiContext):
         """Return [x, y, z] in metres."""
         return self._pose(handle, relative_to)[:3]
 
+    @refusal_warns
     @value_first
     def setObjectPosition(self, handle: Handle, position: Vector3, relative_to: Handle = WORLD) -> None:
         """Set the position of a model, link or dummy. Also accepts the old order (handle, relative_to, position)."""
@@ -196,6 +204,7 @@ class ObjectFunctions(ApiContext):
         """Return [qx, qy, qz, qw]."""
         return self._pose(handle, relative_to)[3:]
 
+    @refusal_warns
     @value_first
     def setObjectQuaternion(self, handle: Handle, quaternion: Vector4, relative_to: Handle = WORLD) -> None:
         """Set the orientation of a model, link or dummy. Also accepts the old order (relative_to before quaternion)."""
@@ -205,12 +214,14 @@ class ObjectFunctions(ApiContext):
         """Return [alpha, beta, gamma] in radians."""
         return rotations.euler_angles(self._pose(handle, relative_to)[3:])
 
+    @refusal_warns
     @value_first
     def setObjectOrientation(self, handle: Handle, angles: Vector3, relative_to: Handle = WORLD) -> None:
         """Set the Euler angles of a model, link or dummy. Also accepts the old order (handle, relative_to, angles)."""
         position = self._pose(handle, relative_to)[:3]
         self._set_pose(handle, [*position, *rotations.quaternion_of_euler(angles)], relative_to)
 
+    @refusal_warns
     @value_first
     def setObjectMatrix(self, handle: Handle, matrix: Vector12, relative_to: Handle = WORLD) -> None:
         """Set the pose of a model, link or dummy by a matrix of 12 numbers. Also accepts the old order."""

@@ -180,6 +180,10 @@ class OldFunctions(LogFunctions):
         """Do nothing (main scripts); return 0."""
         return 0
 
+    def handleChildScript(self, script: int = -2, *arguments: Any) -> int:
+        """Do nothing (scripts of V-REP 2); return 0."""
+        return 0
+
     def delegateChildScriptExecution(self) -> int:
         """Do nothing (old scripts); return 0."""
         return 0

@@ -42,6 +42,22 @@ class PackFunctions(ApiContext):
         """Unpack bytes, starting at byte ``offset``, as integers."""
         return self._unpack("sim.unpackUInt8Table", "B", data, start, count, offset)
 
+    def packUInt16Table(self, numbers: Integers, start: int = 0, count: int = 0) -> bytes:
+        """Pack integers from 0 to 65535 as 2 bytes each."""
+        return _pack("sim.packUInt16Table", "H", numbers, start, count)
+
+    def unpackUInt16Table(self, data: Bytes, start: int = 0, count: int = 0, offset: int = 0) -> list[int]:
+        """Unpack integers of 2 bytes each without a sign, starting at byte ``offset``."""
+        return self._unpack("sim.unpackUInt16Table", "H", data, start, count, offset)
+
+    def packUInt32Table(self, numbers: Integers, start: int = 0, count: int = 0) -> bytes:
+        """Pack integers without a sign as 4 bytes each."""
+        return _pack("sim.packUInt32Table", "I", numbers, start, count)
+
+    def unpackUInt32Table(self, data: Bytes, start: int = 0, count: int = 0, offset: int = 0) -> list[int]:
+        """Unpack integers of 4 bytes each without a sign, starting at byte ``offset``."""
+        return self._unpack("sim.unpackUInt32Table", "I", data, start, count, offset)
+
     def packInt32Table(self, numbers: Integers, start: int = 0, count: int = 0) -> bytes:
         """Pack integers as 4 bytes each."""
         return _pack("sim.packInt32Table", "i", numbers, start, count)

@@ -3,10 +3,11 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
-from bubblesim.scripting.api.kinds import Numbers
+from bubblesim.scripting.api.kinds import Handle, Numbers
 from bubblesim.scripting.api.sim.drawings import DrawingFunctions
 
 _COLOUR = [0.2, 0.5, 1.0]
@@ -124,6 +125,38 @@ class ParticleFunctions(DrawingFunctions):
     def getPointCloudPoints(self, cloud: int) -> list[float]:
         """Return x, y and z of all points of a cloud."""
         return [number for point in self._cloud(cloud) for number in point]
+
+    def insertObjectIntoPointCloud(
+        self, cloud: int, handle: Handle, options: int = 0, size: float = 0.02, *more: Any
+    ) -> int:
+        """Add the corners of the box around an object to a cloud; return the number of its points."""
+        sim: Any = self
+        corners = sim.multiplyVector(self._tree.pose(self._resolve(handle)), sim.getShapeMesh(handle)[0])
+        return self.insertPointsIntoPointCloud(cloud, 0, corners)
+
+    def subtractObjectFromPointCloud(
+        self, cloud: int, handle: int, options: int = 0, tolerance: float = 0.0, *more: Any
+    ) -> int:
+        """Return the number of points, which stay."""
+        return len(self._cloud(cloud))
+
+    def intersectPointsWithPointCloud(self, cloud: int, options: int, points: Numbers, tolerance: float) -> int:
+        """Remove the points that are not near one of ``points``; return the number of points."""
+        known, limit = self._cloud(cloud), tolerance * tolerance
+        near = [points[i : i + 3] for i in range(0, len(points) - 2, 3)]
+        kept = [each for each in known if any(math.dist(each, point) ** 2 <= limit for point in near)]
+        self.removePointsFromPointCloud(cloud)
+        return self.insertPointsIntoPointCloud(cloud, 0, [number for point in kept for number in point])
+
+    def getPointCloudOptions(self, cloud: int) -> tuple[float, int, int, float]:
+        """Return the size of cells, the number of points in one, options and the size of points of a cloud."""
+        self._cloud(cloud)
+        return 0.02, 20, 0, 2.0
+
+    def setPointCloudOptions(self, cloud: int, *options: Any) -> int:
+        """Accept the settings of a cloud; return 1."""
+        self._cloud(cloud)
+        return 1
 
     def _particles_at(self, handle: int) -> _Particles:
         if handle not in self._particles:

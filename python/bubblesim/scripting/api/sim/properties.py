@@ -3,8 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+import contextlib
 from typing import Any
 
 from bubblesim.scripting.api.kinds import (
@@ -18,27 +17,14 @@ from bubblesim.scripting.api.kinds import (
     Vector4,
     Vector7,
 )
+from bubblesim.scripting.api.sim import more_properties
 from bubblesim.scripting.api.sim.constants import SimConstants as Sim
 from bubblesim.scripting.api.sim.custom_data import CustomDataFunctions
+from bubblesim.scripting.api.sim.more_properties import OF_APP, Property, int_parameter, type_name, type_of
 from bubblesim.scripting.api.sim.scene_objects import SceneObject
 from bubblesim.scripting.api.sim.signals import require_type
 
-Get = Callable[[Any, int], Any]  # of the module and a handle
-Set = Callable[[Any, int, Any], object]
-
 _NUMBERS = (int, float)
-
-
-@dataclass(frozen=True)
-class Property:
-    """A property of objects."""
-
-    get: Get
-    set: Set | None = None
-    types: tuple[int, ...] = ()
-    """Types of objects that have it; empty for all."""
-    leads_to_objects: bool = False
-    """Its values are handles."""
 
 
 _JOINT, _SHAPE, _CAMERA = (Sim.object_joint_type,), (Sim.object_shape_type,), (Sim.object_visionsensor_type,)
@@ -65,14 +51,6 @@ def _above(sim: Any, handle: int) -> int:
 def _children(sim: Any, handle: int) -> list[int]:
     found: list[int] = sim.getObjectsInTree(handle, sim.handle_all, 3)
     return found
-
-
-def _int_parameter(parameter: int, types: tuple[int, ...]) -> Property:
-    return Property(
-        lambda sim, handle: sim.getObjectInt32Param(handle, parameter),
-        lambda sim, handle, value: sim.setObjectInt32Param(handle, parameter, int(value)),
-        types,
-    )
 
 
 OF_OBJECTS: dict[str, Property] = {
@@ -132,7 +110,7 @@ OF_OBJECTS: dict[str, Property] = {
     "jointMode": Property(
         lambda sim, h: sim.getJointMode(h)[0], lambda sim, h, v: sim.setJointMode(h, v), types=_JOINT
     ),
-    "dynCtrlMode": _int_parameter(Sim.jointintparam_dynctrlmode, _JOINT),
+    "dynCtrlMode": int_parameter(Sim.jointintparam_dynctrlmode, _JOINT),
     "cyclic": Property(lambda sim, h: sim.getJointInterval(h)[0], types=_JOINT),
     "interval": Property(lambda sim, h: sim.getJointInterval(h)[1], types=_JOINT),
     "jointPosition": Property(
@@ -151,6 +129,7 @@ OF_OBJECTS: dict[str, Property] = {
     ),
     "resolution": Property(lambda sim, h: list(sim.getVisionSensorRes(h)), types=_CAMERA),
 }
+OF_OBJECTS |= more_properties.OF_OBJECTS
 OF_OBJECTS |= {  # names of 4.8
     "targetPos": OF_OBJECTS["targetPosition"],
     "targetVel": OF_OBJECTS["targetVelocity"],
@@ -165,6 +144,7 @@ OF_SCENE: dict[str, Property] = {
     "timeStep": Property(lambda sim, h: sim.getSimulationTimeStep(), lambda sim, h, v: sim.setSimulationTimeStep(v)),
     "scenePath": Property(lambda sim, h: sim.getStringParam(sim.stringparam_scene_path_and_name)),
 }
+OF_SCENE |= more_properties.OF_SCENE
 
 
 class PropertyFunctions(CustomDataFunctions):
@@ -211,6 +191,64 @@ class PropertyFunctions(CustomDataFunctions):
         """Return the name of the property with an index from 0, and ''; None (nil) behind the last one."""
         names = sorted(self._properties(target))
         return (names[index], "") if 0 <= index < len(names) else None
+
+    def getPropertyInfo(self, target: Handle, name: str, options: Options = NO_OPTIONS) -> tuple[int, int, str] | None:
+        """Return the type of a property, sim.propertytype_float for example, flags, sim.propertyinfo_notwritable for
+        example, and ''; None (nil) if there is none."""
+        found = self._property(target, name)
+        if found is None:
+            value = self._any_property(target, name, {"noError": True})
+            return None if value is None else (type_of(name, value), self.propertyinfo_removable, "")
+        return type_of(name, found.get(self, target)), 0 if found.set else self.propertyinfo_notwritable, ""
+
+    def getPropertyTypeString(self, kind: int, dotted: bool = False) -> str:
+        """Return the name of a type of properties, 'float' for example."""
+        return type_name(kind)
+
+    def getProperties(self, target: Handle, options: Options = NO_OPTIONS) -> dict[str, Any]:
+        """Return all properties of an object or the scene, by name, that can be read."""
+        found = {}
+        for name, each in self._properties(target).items():
+            with contextlib.suppress(ValueError, LookupError, RuntimeError):
+                found[name] = each.get(self, target)
+        return found
+
+    def setProperties(self, target: Handle, values: Options) -> None:
+        """Set several properties by name."""
+        for name, value in values.items():
+            self.setProperty(target, name, value)
+
+    def getPropertiesInfos(self, target: Handle, options: Options = NO_OPTIONS) -> dict[str, Any]:
+        """Return ``type`` and ``flags`` of all properties that can be read, by name; see getPropertyInfo."""
+        flags = {
+            name: 0 if each.set else self.propertyinfo_notwritable for name, each in self._properties(target).items()
+        }
+        values = self.getProperties(target)
+        return {name: {"type": type_of(name, value), "flags": flags[name]} for name, value in values.items()}
+
+    def getVector2Property(self, target: Handle, name: str, options: Options = NO_OPTIONS) -> Any:
+        """Return two numbers."""
+        return self._any_property(target, name, options)
+
+    def setVector2Property(self, target: Handle, name: str, value: Numbers) -> None:
+        """Set two numbers."""
+        self._set_property(list, target, name, value)
+
+    def getIntArray2Property(self, target: Handle, name: str, options: Options = NO_OPTIONS) -> Any:
+        """Return two integers."""
+        return self._any_property(target, name, options)
+
+    def setIntArray2Property(self, target: Handle, name: str, value: Integers) -> None:
+        """Set two integers."""
+        self._set_property(list, target, name, value)
+
+    def getStringArrayProperty(self, target: Handle, name: str, options: Options = NO_OPTIONS) -> Any:
+        """Return a list of strings."""
+        return self._any_property(target, name, options)
+
+    def setStringArrayProperty(self, target: Handle, name: str, value: Any) -> None:
+        """Set a list of strings."""
+        self._set_property(list, target, name, [str(each) for each in value])
 
     def getLongProperty(self, target: Handle, name: str, options: Options = NO_OPTIONS) -> Any:
         """Return a whole number."""
@@ -282,14 +320,14 @@ class PropertyFunctions(CustomDataFunctions):
 
     def _properties(self, target: int) -> dict[str, Property]:
         """Return the properties that an object, or the scene, has beside signals and custom data."""
-        if target == self.handle_scene:
-            return OF_SCENE
+        if target in (self.handle_scene, self.handle_app):
+            return OF_SCENE if target == self.handle_scene else OF_APP
         sim: Any = self
         kind = sim.getObjectType(target)
         return {name: each for name, each in OF_OBJECTS.items() if not each.types or kind in each.types}
 
     def _property(self, target: int, name: str) -> Property | None:
-        known = OF_SCENE if target == self.handle_scene else OF_OBJECTS
+        known = {self.handle_scene: OF_SCENE, self.handle_app: OF_APP}.get(target, OF_OBJECTS)
         return known.get(name) if name in known and name in self._properties(target) else None
 
     def _any_property(self, target: int, name: str, options: Options) -> Any:

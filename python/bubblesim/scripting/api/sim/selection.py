@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from bubblesim.scripting.api.kinds import Integers
+from bubblesim.scripting.api.kinds import Handle, Integers
 from bubblesim.scripting.api.sim.context import ApiContext
 
 
@@ -28,6 +28,15 @@ class SelectionFunctions(ApiContext):
     def getObjectSelection(self) -> list[int] | None:
         """Return the handles of the selected objects; None (nil) if there are none (old name)."""
         return self.getObjectSel() or None
+
+    def setObjectSelection(self, handles: Integers) -> int:
+        """Select these objects and no others (old name); return 1."""
+        self.setObjectSel(handles)
+        return 1
+
+    def isObjectInSelection(self, handle: Handle) -> int:
+        """Return 1 if an object is selected, else 0 (old name)."""
+        return int(self._resolve(handle) in self._caller.shared.selected)
 
     def getObjectSelectionSize(self) -> int:
         """Return the number of selected objects (old name)."""

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from bubblesim._core import (
@@ -16,7 +17,8 @@ from bubblesim._core import (
     read_proximity,
     reading_time,
 )
-from bubblesim.scripting.api.kinds import Handle
+from bubblesim.geometry import poses
+from bubblesim.scripting.api.kinds import Handle, Numbers
 from bubblesim.scripting.api.sim.object_collections import CollectionFunctions
 
 Reading = tuple[int, float, list[float], int, list[float]]
@@ -49,6 +51,39 @@ class SensorFunctions(CollectionFunctions):
         reading: Reading = measure_proximity(self._simulation, self._sensor(sensor))
         return self._limited(reading, entity if entity == self.handle_all else self._resolve(entity))
 
+    def checkProximitySensorEx(
+        self, sensor: Handle, entity: Handle, mode: int = 0, threshold: float = 0.0, max_angle: float = 0.0
+    ) -> Reading:
+        """Measure now, as checkProximitySensor; a ``threshold`` above 0 is the smallest distance, m. The ``mode`` and
+        the largest angle to the surface are those of the sensor."""
+        reading = self.checkProximitySensor(sensor, entity)
+        return reading if threshold <= 0 or reading[1] >= threshold else _NOTHING
+
+    def checkProximitySensorEx2(
+        self,
+        sensor: Handle,
+        vertices: Numbers,
+        item_type: int = 0,
+        count: int = 1,
+        mode: int = 0,
+        threshold: float = 0.0,
+        max_angle: float = 0.0,
+    ) -> tuple[int, float, list[float], list[float]]:
+        """Return result 1, distance, point and normal of the nearest of some points, segments or triangles
+        (``item_type`` 0, 1, 2), by their corners in the world, that is within the range of the sensor along its axis;
+        else result 0."""
+        per_item = 3 * (item_type + 1)
+        corners = vertices[: count * per_item]
+        pose = self._tree.pose(self._resolve(sensor))
+        low, high = self._world.sonar_limits(self._sensor(sensor))[:2]
+        points = [poses.transform(poses.inverse(pose), corners[i : i + 3]) for i in range(0, len(corners) - 2, 3)]
+        seen = [point for point in points if point[2] > 0 and low <= math.hypot(*point) <= high]
+        if not seen:
+            return 0, 0.0, [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
+        nearest = min(seen, key=lambda point: math.hypot(*point))
+        distance = math.hypot(*nearest)
+        return 1, distance, nearest, [-part / distance for part in nearest]
+
     def getReadingTime(self, sensor: Handle) -> float:
         """Return the time, s, of the state that the last measurement shows; do not measure.
 
@@ -63,7 +98,12 @@ class SensorFunctions(CollectionFunctions):
         return reading.orientation.tolist(), reading.angular_velocity.tolist(), reading.linear_acceleration.tolist()
 
     def readForceSensor(self, sensor: Handle) -> tuple[int, list[float], list[float]]:
-        """Return 1, and the force (N) and torque (N m) of a force-torque sensor, averaged over the last step."""
+        """Return 1, and the force (N) and torque (N m) of a force-torque sensor, averaged over the last step.
+
+        A sensor of createForceSensor measures nothing: 0 and zeros.
+        """
+        if self._tree.is_created_dummy(self._resolve(sensor)):  # of createForceSensor
+            return 0, [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
         reading = read_force_torque(self._simulation, self._sensor(sensor))
         return 1, reading.force.tolist(), reading.torque.tolist()
 

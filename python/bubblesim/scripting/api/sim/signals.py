@@ -40,6 +40,28 @@ class SignalFunctions(ApiContext):
         if name and (lidar := self._world.find_signal(name)) >= 0:
             self._caller.shared.cleared_scans[name] = float(reading_time(self._simulation, lidar))
 
+    def appendStringSignal(self, name: str, value: TextOrBytes) -> int:
+        """Add a string or bytes to the end of a signal (old name); return 1."""
+        before = self._get_text(name)
+        if isinstance(value, str) and isinstance(before, str | None):
+            self._set(str, name, (before or "") + value)
+        else:
+            parts = [each.encode() if isinstance(each, str) else bytes(each) for each in (before or b"", value)]
+            self._set(str, name, b"".join(parts))
+        return 1
+
+    def setBufferSignal(self, name: str, value: TextOrBytes) -> None:
+        """Set bytes: a string signal."""
+        self._set(str, name, value)
+
+    def getBufferSignal(self, name: str) -> str | bytes | None:
+        """Return the bytes of a signal; None (nil) if there are none."""
+        return self._get_text(name)
+
+    def clearBufferSignal(self, name: str) -> None:
+        """Delete the bytes of a signal."""
+        self.clearStringSignal(name)
+
     def setFloatSignal(self, name: str, value: float) -> None:
         """Set a number."""
         self._set(float, name, value)
@@ -84,7 +106,7 @@ class SignalFunctions(ApiContext):
 
     def getStringProperty(self, target: Handle, name: str, options: Options = NO_OPTIONS) -> str | bytes | None:
         """Return the text 'signal.NAME' of the scene, or 'customData.NAME' of it or an object."""
-        if target == self.handle_scene and name.startswith(_PREFIX):
+        if target in (self.handle_scene, self.handle_app) and name.startswith(_PREFIX):
             return self._get_text(self._signal(target, name))
         value: str | bytes | None = self._get_property(str, target, name)
         return value
@@ -110,7 +132,7 @@ class SignalFunctions(ApiContext):
         return value
 
     def _signal(self, target: int, name: str) -> str:
-        if target != self.handle_scene or not name.startswith(_PREFIX):
+        if target not in (self.handle_scene, self.handle_app) or not name.startswith(_PREFIX):
             raise ValueError(
                 f"object {target} has no property '{name}'; expected 'customData.NAME', or sim.handle_scene and "
                 "'signal.NAME'"
@@ -121,7 +143,7 @@ class SignalFunctions(ApiContext):
         """Return the key of 'customData.NAME'; None for other properties."""
         if not name.startswith(_DATA_PREFIX):
             return None
-        if target != self.handle_scene:
+        if target not in (self.handle_scene, self.handle_app):
             target = self._resolve(target)
             self._tree.kind(target)  # raises
         return target, name.removeprefix(_DATA_PREFIX)

@@ -7,7 +7,9 @@ from bubblesim.scripting.api.functions import script_module
 from bubblesim.scripting.api.sim.accepted_functions import AcceptedFunctions
 from bubblesim.scripting.api.sim.added_scripts import AddedScriptFunctions
 from bubblesim.scripting.api.sim.colours_and_textures import LookFunctions
+from bubblesim.scripting.api.sim.configurations import ConfigurationFunctions
 from bubblesim.scripting.api.sim.contacts import ContactFunctions
+from bubblesim.scripting.api.sim.created_meshes import CreatedMeshFunctions
 from bubblesim.scripting.api.sim.created_sensors import CreatedSensorFunctions
 from bubblesim.scripting.api.sim.distances import DistanceFunctions
 from bubblesim.scripting.api.sim.drawings import DrawingFunctions
@@ -16,9 +18,12 @@ from bubblesim.scripting.api.sim.graphs import GraphFunctions
 from bubblesim.scripting.api.sim.joints import JointFunctions
 from bubblesim.scripting.api.sim.logs import LogFunctions
 from bubblesim.scripting.api.sim.matrices import MatrixFunctions
+from bubblesim.scripting.api.sim.messages import MessageFunctions
 from bubblesim.scripting.api.sim.object_collections import CollectionFunctions
 from bubblesim.scripting.api.sim.objects import ObjectFunctions
+from bubblesim.scripting.api.sim.octrees import OctreeFunctions
 from bubblesim.scripting.api.sim.old_functions import OldFunctions
+from bubblesim.scripting.api.sim.old_kinematics import OldKinematicsFunctions
 from bubblesim.scripting.api.sim.old_motion import OldMotionFunctions
 from bubblesim.scripting.api.sim.old_user_interfaces import OldUserInterfaceFunctions
 from bubblesim.scripting.api.sim.packing import PackFunctions
@@ -28,12 +33,14 @@ from bubblesim.scripting.api.sim.paths import PathFunctions
 from bubblesim.scripting.api.sim.programs import ProgramFunctions
 from bubblesim.scripting.api.sim.properties import PropertyFunctions
 from bubblesim.scripting.api.sim.random_numbers import RandomFunctions
+from bubblesim.scripting.api.sim.referenced_handles import ReferencedHandleFunctions
 from bubblesim.scripting.api.sim.scene_files import SceneFileFunctions
 from bubblesim.scripting.api.sim.script_parameters import ScriptParameterFunctions
-from bubblesim.scripting.api.sim.scripts import ScriptFunctions
+from bubblesim.scripting.api.sim.script_strings import ScriptStringFunctions
 from bubblesim.scripting.api.sim.selection import SelectionFunctions
 from bubblesim.scripting.api.sim.sensors import SensorFunctions
 from bubblesim.scripting.api.sim.signals import SignalFunctions
+from bubblesim.scripting.api.sim.simulator_functions import SimulatorFunctions
 from bubblesim.scripting.api.sim.threads import ThreadFunctions
 from bubblesim.scripting.api.sim.times import TimeFunctions
 from bubblesim.scripting.api.sim.tubes import TubeFunctions
@@ -44,8 +51,12 @@ from bubblesim.scripting.api.sim.vision import VisionFunctions
 class SimApi(
     OldMotionFunctions,
     PathFunctions,
+    ConfigurationFunctions,
+    OldKinematicsFunctions,
     ObjectFunctions,
     SceneFileFunctions,
+    OctreeFunctions,
+    CreatedMeshFunctions,
     CreatedSensorFunctions,
     MatrixFunctions,
     ParameterFunctions,
@@ -69,8 +80,11 @@ class SimApi(
     OldFunctions,
     AcceptedFunctions,
     ProgramFunctions,
+    SimulatorFunctions,
     LogFunctions,
-    ScriptFunctions,
+    ScriptStringFunctions,
+    MessageFunctions,
+    ReferencedHandleFunctions,
     AddedScriptFunctions,
     ScriptParameterFunctions,
     SelectionFunctions,

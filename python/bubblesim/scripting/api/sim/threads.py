@@ -51,6 +51,31 @@ class ThreadFunctions(ApiContext):
     def setThreadSwitchTiming(self, milliseconds: float) -> None:
         """For older scripts: turns last 2 ms."""
 
+    def getThreadSwitchTiming(self) -> float:
+        """Return how long a turn lasts, ms, for older scripts."""
+        return 2.0
+
+    def setAutoYieldDelay(self, seconds: float) -> None:
+        """Accept how long a turn lasts: 2 ms."""
+
+    @any_time
+    def setThreadSwitchAllowed(self, allowed: bool) -> int:
+        """The opposite of ``setStepping``, for older scripts."""
+        return self.setStepping(not allowed)
+
+    @any_time
+    def getThreadSwitchAllowed(self) -> int:
+        """Return 1 if stepping mode is off, else 0, for older scripts."""
+        return int(self.getStepping() == 0)
+
+    def isScriptExecutionThreaded(self) -> int:
+        """Return 1 in a thread, else 0, for older scripts."""
+        return int(current() is not None)
+
+    def isScriptRunningInThread(self) -> int:
+        """Return 1 in a thread, else 0, for older scripts."""
+        return int(current() is not None)
+
     def setThreadIsFree(self, free: bool) -> None:
         """For older scripts: a thread in Python that waits for a socket is free."""
 

@@ -9,6 +9,7 @@ from typing import Any
 from bubblesim.program.output import write_line
 from bubblesim.scene_state.panels import Panel, Widget
 from bubblesim.scripting.api.functions import script_module
+from bubblesim.scripting.api.named_constants import Names
 from bubblesim.scripting.api.ui.tables_and_plots import TableAndPlotFunctions
 from bubblesim.scripting.api.ui.widgets import WidgetFunctions, switch_others_off
 from bubblesim.scripting.api.ui.xml_widgets import parse
@@ -19,6 +20,16 @@ class SimUi(WidgetFunctions, TableAndPlotFunctions):
     """User interfaces of widgets. The window shows them in its panel Dialogs; without a window they keep their values.
     They end with their script."""
 
+    curve_type = Names(time=0, xy=1)
+    curve_style = Names(line=0, line_and_scatter=1, scatter=2, step_left=3, step_right=4, step_center=5, impulse=6)
+    scatter_shape = Names(none=0, dot=1, cross=2, plus=3, circle=4, disc=5, square=6, diamond=7, star=8, triangle=9)
+    line_style = Names(solid=0, dot=1, dash=2, dash_dot=3, dash_dot_dot=4)
+    line_size = Names(thin=0, normal=1, thick=2)
+    msgbox_type = Names(info=0, question=1, warning=2, critical=3)
+    msgbox_buttons = Names(ok=0, yesno=1, yesnocancel=2, okcancel=3)
+    msgbox_result = Names(cancel=0, no=1, yes=2, ok=3, error=4)
+    filedialog_type = Names(load=0, save=1, load_multiple=2, folder=3)
+    mouse_event = Names(press=0, release=1, move=2)
     curve_type_time = 0
     curve_type_xy = 1
     curve_style_line = 0

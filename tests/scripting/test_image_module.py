@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""simIM: images, their pixels, operations and drawings."""
+
+from pathlib import Path
+
+from node_support import REFUSED, in_init, run_script
+
+HEADER = f"""
+simIM = require('simIM')
+{REFUSED}"""
+
+
+def check(folder: Path, body: str, scene: str = "ball", target: str = "/Ball") -> None:
+    run = run_script(folder, f"{HEADER}{in_init(body)}", "--strict", scene=scene, target=target)
+    assert (run.stderr, run.returncode) == ("", 0)
+
+
+def test_pixels_are_set_and_read_from_the_top_left(tmp_path: Path) -> None:
+    body = """
+image = simIM.create(4, 3)
+assert simIM.size(image) == [4, 3]
+simIM.set(image, [3, 0], [10, 20, 30])
+simIM.set(image, 0, 2, [1, 2, 3])  # the older form
+assert simIM.get(image, [3, 0]) == [10, 20, 30] and simIM.get(image, 0, 2) == [1, 2, 3]
+assert simIM.data(image)[9:12] == bytes([10, 20, 30])
+assert 'is not a pixel' in refused(simIM.get, image, [4, 0])
+simIM.destroy(image)
+assert 'no image' in refused(simIM.size, image) and simIM.numActiveHandles() == 0
+"""
+    check(tmp_path, body)
+
+
+def test_channels_are_split_merged_and_converted(tmp_path: Path) -> None:
+    body = """
+image = simIM.createFromData(2, 1, bytes([255, 0, 0, 0, 0, 255]))
+red, green, blue = simIM.split(image)
+assert simIM.get(red, [0, 0]) == [255] and simIM.get(blue, [1, 0]) == [255]
+assert simIM.data(simIM.merge([red, green, blue])) == simIM.data(image)
+# ITU-R BT.601: 0.299 R + 0.587 G + 0.114 B
+grey = simIM.rgb2gray(image)
+assert [simIM.get(grey, [x, 0])[0] for x in (0, 1)] == [76, 29]
+hsv = simIM.rgb2hsv(image)
+assert [round(n) for n in simIM.get(hsv, [0, 0])] == [0, 255, 255]
+assert abs(simIM.get(hsv, [1, 0])[0] - 120) <= 1  # blue is at 240 degrees
+assert simIM.get(simIM.hsv2rgb(hsv), [0, 0]) == [255, 0, 0]
+"""
+    check(tmp_path, body)
+
+
+def test_operations_are_limited_to_a_byte_and_may_be_in_place(tmp_path: Path) -> None:
+    body = """
+one, two = simIM.create(1, 1, simIM.fmt_8UC1, 200), simIM.create(1, 1, simIM.fmt_8UC1, 100)
+value = lambda image: simIM.get(image, [0, 0])[0]
+assert value(simIM.add(one, two)) == 255 and value(simIM.subtract(two, one)) == 0
+assert value(simIM.absdiff(two, one)) == 100 and value(simIM.divide(one, two)) == 2
+assert value(simIM.addK(one, [-50])) == 150 and simIM.mean(one) == [200]
+assert simIM.addK(one, [5], True) == one and value(one) == 205
+floats = simIM.convert(one, simIM.fmt_32FC1, 0.5)
+assert value(floats) == 102.5
+assert 'different sizes' in refused(simIM.add, one, simIM.create(2, 2, simIM.fmt_8UC1))
+"""
+    check(tmp_path, body)
+
+
+def test_drawings_have_their_colour_and_place(tmp_path: Path) -> None:
+    body = """
+image = simIM.create(32, 32)
+simIM.rectangle(image, [2, 2], [6, 6], [255, 0, 0], -1)
+simIM.circle(image, 20, 20, 4, 0, 255, 0, -1)  # the older form
+simIM.line(image, [0, 31], [31, 31], [0, 0, 255])
+simIM.fillConvexPoly(image, [20, 2, 28, 2, 28, 8], [9, 9, 9])
+assert simIM.get(image, [4, 4]) == [255, 0, 0] and simIM.get(image, [20, 20]) == [0, 255, 0]
+assert simIM.get(image, [15, 31]) == [0, 0, 255] and simIM.get(image, [26, 4]) == [9, 9, 9]
+before = simIM.data(image)
+simIM.text(image, 'A', [2, 28])
+assert simIM.data(image) != before and simIM.textSize('AA')[0] > simIM.textSize('A')[0]
+small = simIM.resize(image, 16, 16, simIM.interp_nearest)
+assert simIM.size(small) == [16, 16] and simIM.get(small, [2, 2]) == [255, 0, 0]
+"""
+    check(tmp_path, body)
+
+
+def test_a_camera_gives_its_image_and_takes_another_one(tmp_path: Path) -> None:
+    code = """
+        def sysCall_init():
+            self.camera = sim.getObject('/visionSensor')
+        def sysCall_sensing():
+            if sim.getSimulationTime() < 0.1:
+                return
+            simIM = require('simIM')
+            image = simIM.readFromVisionSensor(self.camera)
+            width, height = sim.getVisionSensorRes(self.camera)
+            assert simIM.size(image) == [width, height]
+            data, _ = sim.getVisionSensorImg(self.camera)
+            assert simIM.data(image)[:3 * width] == data[-3 * width:]  # the first row is the upper one
+            simIM.rectangle(image, [0, 0], [width, height], [7, 8, 9], -1)
+            simIM.writeToVisionSensor(image, self.camera)
+            assert sim.getVisionSensorImg(self.camera)[0][:3] == bytes([7, 8, 9])
+            simIM.destroy(image)
+            print('seen')
+    """
+    run = run_script(tmp_path, code, "--strict", scene="p3dx_floor", target="/PioneerP3DX")
+    assert run.stderr == ""
+    assert "seen" in run.stdout
