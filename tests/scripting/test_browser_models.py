@@ -360,6 +360,36 @@ def sysCall_sensing():
     script(tmp_path, body, rest=rest, until=4)
 
 
+def test_the_hand_of_the_panda_carries_a_cube(tmp_path: Path) -> None:
+    body = f"""
+sim.removeModel(sim.getObject('/PioneerP3DX'))
+sim.loadModel('FrankaEmikaPanda.ttm')
+self.joints = [sim.getObject('/' + path) for path in {ARMS["Franka"]}]
+for joint, position in zip(self.joints, (0, 0.3, 0, -1.9, 0, 2.2, 0.78)):
+    sim.setJointPosition(joint, position)
+hand = '/Franka/FrankaGripper/'
+for finger in ('openCloseJoint', 'rightFingerJoint'):
+    sim.setJointPosition(sim.getObject(hand + finger), 0.0201)
+sim.setJointTargetVelocity(sim.getObject(hand + 'openCloseJoint'), -0.1)
+self.tip = sim.getObject(hand + 'attachPoint')
+self.cube = sim.createPrimitiveShape(sim.primitiveshape_cuboid, [0.04, 0.04, 0.04])
+sim.setObjectInt32Param(self.cube, sim.shapeintparam_static, 0)
+sim.setObjectInt32Param(self.cube, sim.shapeintparam_respondable, 1)
+sim.setObjectPose(self.cube, sim.getObjectPose(self.tip))
+"""
+    rest = """
+def sysCall_sensing():
+    share = min(1, max(0, sim.getSimulationTime() - 0.5) / 2)
+    sim.setJointTargetPosition(self.joints[0], 0.8 * share)
+    sim.setJointTargetPosition(self.joints[1], 0.3 - 0.3 * share)
+
+def sysCall_cleanup():
+    assert math.dist(sim.getObjectPosition(self.cube, self.tip), [0, 0, 0]) < 0.01
+    assert sim.getObjectPosition(self.cube)[1] > 0.4 and sim.getObjectPosition(self.cube)[2] > 0.4
+"""
+    script(tmp_path, body, rest=rest, until=4)
+
+
 def test_walking_bill_is_seen_and_goes_where_his_goal_is_put(tmp_path: Path) -> None:
     body = """
 self.bill = sim.loadModel('models/people/Walking Bill.ttm')
