@@ -61,7 +61,7 @@ OF_OBJECTS: dict[str, Property] = {
     "parentHandle": Property(_above, lambda sim, h, v: sim.setObjectParent(h, v, True)),
     "children": Property(_children, leads_to_objects=True),
     "modelBase": Property(lambda sim, h: sim.getModelProperty(h) != sim.modelproperty_not_model),
-    "selected": Property(lambda sim, h: h in sim.getObjectSelection()),
+    "selected": Property(lambda sim, h: h in sim.getObjectSel()),
     "pose": Property(
         lambda sim, h: sim.getObjectPose(h, _above(sim, h)), lambda sim, h, v: sim.setObjectPose(h, v, _above(sim, h))
     ),

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Names of message types, and arrays of bytes in messages, as in scripts of CoppeliaSim."""
+
+from pathlib import Path
+
+from node_support import Node, write
+from ros_support import RosCore, wait_until
+
+LUA = """
+function sysCall_init()
+    publisher = simROS.advertise('/bytes', 'std_msgs::UInt8MultiArray')
+    simROS.publisherTreatUInt8ArrayAsString(publisher)
+    simROS.subscribe('/bytes', 'std_msgs/UInt8MultiArray', 'as_table')
+    local other = simROS.subscribe('/bytes', 'std_msgs/UInt8MultiArray', 'as_string')
+    simROS.subscriberTreatUInt8ArrayAsString(other)
+end
+function sysCall_actuation() simROS.publish(publisher, {data = '\\1\\2\\3'}) end
+function as_table(message) if not a then print('table', type(message.data), message.data[2]) end a = true end
+function as_string(message) if not b then print('string', type(message.data), #message.data) end b = true end
+"""
+PYTHON = """
+def sysCall_init():
+    simROS.subscribe('/bytes', 'std_msgs/UInt8MultiArray', 'received')
+def received(message):
+    if not getattr(sysCall_init, 'done', False):
+        print('python', message['data'])
+    sysCall_init.done = True
+"""
+
+
+def test_bytes_of_messages_are_tables_in_lua_unless_a_script_wants_strings(roscore: RosCore, tmp_path: Path) -> None:
+    scripts = write(tmp_path / "script.lua", LUA), write(tmp_path / "script.py", PYTHON)
+    targets = [f"/Tricycle={scripts[0]}", f"/Tricycle/base_link={scripts[1]}"]
+    options = [option for target in targets for option in ("--child-script", target)]
+    with Node(roscore.env, tmp_path / "log", "tricycle", *options) as node:
+        wait_until(lambda: node.output.count("python") and node.output.count("string"), "the messages")
+        wait_until(lambda: "table\ttable\t2" in node.output, "the table")
+        assert "string\tstring\t3" in node.output
+        assert "python b'\\x01\\x02\\x03'" in node.output
