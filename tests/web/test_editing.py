@@ -173,6 +173,7 @@ def test_a_model_of_the_folders_is_added(tmp_path: Path, show: Show) -> None:
     with Node(tmp_path, "tricycle", "--paused") as node:
         page = show(node)
         page.js("bubblesim.layout.show('models')")
+        page.page.locator("[data-model=chair]").scroll_into_view_if_needed()  # only what is seen gets a picture
         # The cards are there as soon as the server has listed the models, the pictures later.
         page.wait("document.querySelector('[data-model=chair] .picture')?.style.backgroundImage.includes('blob:')")
         page.page.drag_and_drop("[data-model=chair]", ".view canvas")

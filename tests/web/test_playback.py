@@ -312,3 +312,17 @@ def test_a_video_of_the_view_plays(tmp_path: Path, show: Show, browser: Browser)
         video = watch(browser, file)
         assert float(str(video["duration"])) > 1
         assert np.abs(np.array(video["first"]) - np.array(video["last"])).max() > 60
+
+
+def test_colour_cameras_show_what_they_saw(tmp_path: Path, show: Show) -> None:
+    note = "document.querySelector(\"[data-camera$='/Camera'] .hint\").textContent"
+    with Node(tmp_path, "sensors") as node:
+        page = show(node)
+        after(page, 0.5)
+        page.js("bubblesim.layout.show('cameras')")
+        page.page.keyboard.press("l")
+        page.wait(f"{note}.includes('playback at')")
+        depth = "document.querySelector(\"[data-camera$='/DepthCamera'] .hint\").textContent"
+        page.wait(f"{depth}.includes('not in a playback')")
+        page.page.keyboard.press("l")
+        page.wait(f"!{note}.includes('playback')")
