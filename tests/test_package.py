@@ -2,7 +2,9 @@
 """The Debian package is built of what scripts/setup installs."""
 
 import re
+import shutil
 import subprocess
+from pathlib import Path
 
 import pytest
 
@@ -45,3 +47,16 @@ def test_its_program_explains_itself() -> None:
 def test_bad_usage_is_explained(arguments: list[str]) -> None:
     run = subprocess.run([REPOSITORY / "scripts" / "package", *arguments], capture_output=True, text=True, check=False)
     assert (run.returncode, run.stderr[:6]) == (2, "usage:")
+
+
+@pytest.mark.long
+@pytest.mark.skipif(shutil.which("dh_python3") is None, reason="needs debhelper and dh-python")
+def test_equal_commits_give_equal_packages(tmp_path: Path) -> None:
+    """In other folders, at other times, and with another umask."""
+    packages = []
+    for folder, mask in ((tmp_path / "a", 0o022), (tmp_path / "another" / "folder", 0o027)):
+        subprocess.run([REPOSITORY / "scripts" / "package", folder], umask=mask, stdout=subprocess.DEVNULL, check=True)
+        (package,) = folder.glob("*.deb")
+        packages.append(package)
+    assert packages[0].name == packages[1].name
+    assert packages[0].read_bytes() == packages[1].read_bytes()

@@ -69,3 +69,18 @@ def test_what_needs_ros_states_that(tmp_path: Path) -> None:
 def test_bad_usage_is_explained(arguments: list[str]) -> None:
     run = subprocess.run([REPOSITORY / "scripts" / "wheel", *arguments], capture_output=True, text=True, check=False)
     assert (run.returncode, run.stderr[:6]) == (2, "usage:")
+
+
+@pytest.mark.long
+def test_equal_commits_give_equal_wheels(tmp_path: Path) -> None:
+    """In other clones, at other times, and with another umask."""
+    wheels = []
+    for clone, mask in ((tmp_path / "a", 0o022), (tmp_path / "another" / "clone", 0o027)):
+        subprocess.run(["git", "clone", "--quiet", REPOSITORY, clone], umask=mask, check=True)
+        (clone / ".ws").mkdir()
+        (clone / ".ws" / "venv").symlink_to(REPOSITORY / ".ws" / "venv")
+        subprocess.run([clone / "scripts" / "wheel"], umask=mask, stdout=subprocess.DEVNULL, check=True)
+        (wheel,) = (clone / ".ws" / "wheel").glob("*.whl")
+        wheels.append(wheel)
+    assert wheels[0].name == wheels[1].name
+    assert wheels[0].read_bytes() == wheels[1].read_bytes()
