@@ -124,7 +124,7 @@ def test_a_simulator_of_any_name_is_found_before_a_launch(roscore: RosCore, tmp_
 @pytest.mark.parametrize(
     ("argument", "answer"),
     [
-        ("contoller:=false", "error: tricycle.launch has no argument contoller; did you mean controller?"),
+        ("control:=false", "error: tricycle.launch has no argument control; did you mean controller?"),
         ("scene:=ball", "error: tricycle.launch has no argument scene; it has controller, gazebo_compat, map_to_odom"),
     ],
 )
