@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from xml.sax.saxutils import escape
 
 from bubblesim.scene_state.primitive_shapes import CAPSULE, CONE, CUBOID, CYLINDER, SPHEROID, PrimitiveShape
 
@@ -62,7 +63,7 @@ _JOINTS = ("hinge", "slider")
 class Options:
     """How a part is to be. Only shapes have all of them."""
 
-    size: Sequence[float] = (0.3, 0.3, 0.3)
+    size: Sequence[float] = (0.2, 0.2, 0.4)
     """Full lengths along x, y and z, m."""
     material: str = "plastic"
     fixed: bool = False
@@ -173,7 +174,7 @@ def _sensor(kind: str, name: str, options: Options) -> str:
     )
     height = _STAND
     if options.carrier:
-        below, height = f"<bubblesim:carrier>{options.carrier}</bubblesim:carrier>", 0.0
+        below, height = f"<bubblesim:carrier>{escape(options.carrier)}</bubblesim:carrier>", 0.0
     return (
         f'<static>true</static><pose>0 0 {height} 0 0 0</pose><link name="{name}">'
         f'<visual name="case"><geometry>{case}</geometry>{_colour(_GREY)}</visual>{below}{_SENSORS[kind]}</link>'
