@@ -28,6 +28,21 @@ def test_functions_of_older_versions_of_lua(tmp_path: Path) -> None:
     assert in_init(tmp_path, body) == ["true\t1024.0\t3.0\t3", "1\t7\t16.0\t0.5\t4", "true\ta"]
 
 
+def test_numbers_with_a_fraction_are_formatted_as_in_lua_5_1(tmp_path: Path) -> None:
+    body = """
+        print(string.format('%d %5.1f %x %s%%', 3.7, 2.5, -1.2 + 16, 'a'), ('%d'):format(-2.9))
+        print(pcall(string.format, '%d', 'x'))
+        sim.setStringSignal('n', 5) sim.setStringSignal('f', 0.5)
+        print(sim.getStringSignal('n') .. sim.getStringSignal('f'))
+        sim.setObjectPosition(sim.getObject('.'), {1, 2, 3, 4})
+        print(sim.getObjectPosition(sim.getObject('.'))[3])
+    """
+    found = in_init(tmp_path, body)
+    assert found[0] == "3   2.5 e a%\t-2"
+    assert found[1].startswith("false\t")
+    assert found[2:] == ["50.5", "3.0"]
+
+
 def test_time_and_some_variables_are_there(tmp_path: Path) -> None:
     body = "print(os.time() > 1e9, type(os.clock()), os.date('%Y') > '2000', os.getenv('SHELL'), type(package.path))"
     assert in_init(tmp_path, body) == ["true\tnumber\ttrue\tnil\tstring"]

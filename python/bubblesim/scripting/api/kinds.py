@@ -70,13 +70,14 @@ def _options(value: Any) -> Mapping[str, Any]:
 
 
 def numbers(count: int) -> Kind:
-    """Return the kind of exactly ``count`` numbers, in a list, tuple or array."""
+    """Return the kind of ``count`` numbers, in a list, tuple or array; those behind them are ignored, as in
+    CoppeliaSim."""
 
     def convert(values: Any) -> list[float]:
         taken = _numbers(values)
-        if len(taken) != count:
+        if len(taken) < count:
             raise MismatchError(f"found {len(taken)}")
-        return taken
+        return taken[:count]
 
     return Kind(f"{count} numbers", convert)
 

@@ -62,6 +62,23 @@ table.foreachi = table.foreachi or function(t, action)
   end
 end
 string.gfind = string.gfind or string.gmatch
+-- %d and others take numbers with a fraction, as in Lua 5.1.
+local format = string.format
+local function truncated(value)
+  if math.type(value) ~= "float" or value ~= value or value == math.huge or value == -math.huge then return value end
+  return value < 0 and -floor(-value) or floor(value)
+end
+function string.format(form, ...)
+  local succeeded, text = globals.pcall(format, form, ...)
+  if succeeded then return text end
+  if not find(text, "no integer representation", 1, true) then fail(text) end
+  local given, number = {...}, 0
+  for letter in string.gmatch(gsub(form, "%%%%", ""), "%%[-+ #0-9.]*(%a)") do
+    number = number + 1
+    if find("diuxXoc", letter, 1, true) then given[number] = truncated(given[number]) end
+  end
+  return format(form, unpack(given, 1, select("#", ...)))
+end
 globals.unpack = globals.unpack or unpack
 globals.loadstring = globals.loadstring or function(text, name) return globals.load(text, name) end
 globals.bit32 = globals.bit32 or {

@@ -3,12 +3,19 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 from bubblesim._core import read_lidar, reading_time
-from bubblesim.scripting.api.kinds import NO_OPTIONS, Handle, Options, TextOrBytes
+from bubblesim.scripting.api.kinds import NO_OPTIONS, Handle, Kind, Options, TextOrBytes
 from bubblesim.scripting.api.sim.context import ApiContext
 
+
+def _text_of_signal(value: Any) -> str | bytes:
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    return f"{value:.14g}" if is_number else value if isinstance(value, str) else bytes(memoryview(value))
+
+
+SignalText = Annotated[str | bytes, Kind("a string or bytes", _text_of_signal)]
 _DATA_PREFIX = "customData."
 _PREFIX = "signal."  # of the names in the newer functions: properties of the scene
 
@@ -22,8 +29,8 @@ def require_type(name: str, value: object, wanted: type | tuple[type, ...]) -> N
 class SignalFunctions(ApiContext):
     """Named values, shared by all scripts; strings, numbers and integers have separate namespaces."""
 
-    def setStringSignal(self, name: str, value: TextOrBytes) -> None:
-        """Set a string or bytes."""
+    def setStringSignal(self, name: str, value: SignalText) -> None:
+        """Set a string or bytes; a number is written as one, as in Lua."""
         self._set(str, name, value)
 
     def getStringSignal(self, name: str) -> str | bytes | None:
