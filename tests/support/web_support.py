@@ -178,7 +178,7 @@ class Window:
     def open_file(self, file: Path) -> None:
         """Choose a file in the window's dialog."""
         with self.page.expect_file_chooser() as chooser:
-            self.page.keyboard.press("Control+o")
+            self.button("Open a recorded run").click()
         chooser.value.set_files(file)
 
     def button(self, title: str) -> Any:

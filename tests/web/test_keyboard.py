@@ -69,3 +69,12 @@ def test_after_the_end_of_the_simulator_the_last_picture_is_grey(tmp_path: Path,
         page.page.keyboard.press("l")  # what was recorded can still be played
         page.wait("bubblesim.playback.run !== null")
         assert page.js("getComputedStyle(document.querySelector('.view')).filter") == "none"
+
+
+def test_control_o_asks_for_a_file(tmp_path: Path, show: Show) -> None:
+    with Node(tmp_path, "ball", "--paused") as node:
+        page = show(node)
+        page.page.mouse.click(*page.middle())  # browsers ask for files only after a user has done something
+        with page.page.expect_file_chooser() as chooser:
+            page.page.keyboard.press("Control+o")
+        assert not chooser.value.is_multiple()

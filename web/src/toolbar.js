@@ -209,9 +209,9 @@ export class Toolbar {
     };
     view.on("options", showModes);
     showModes();
-    const editTools = h("div.group", modes.map(([, each]) => each), this.snap, this.undo, this.redo, save, open);
+    const editTools = h("div.group", modes.map(([, each]) => each), this.snap, this.undo, this.redo, save);
     this.#app.link.on("hello", ({ edit }) => (editTools.hidden = !edit));
-    this.left.append(editTools, sides, this.follow, h("div.dropdown", opener, menu));
+    this.left.append(editTools, open, sides, this.follow, h("div.dropdown", opener, menu));
     this.right.append(
       button("left", "Left panels", () => layout.toggle("left")),
       button("bottom", "Panels below", () => layout.toggle("bottom")),
