@@ -15,7 +15,7 @@ import bubblesim
 from cli_support import bubblesim as program
 from node_support import run_sim
 from ros_support import DEADLINE, REPOSITORY, built
-from ttt_files import BOX, FLOOR, LUA, PYTHON, arm, cuboid, item, script, text, thing, write
+from ttt_files import BOX, FLOOR, LUA, PYTHON, arm, cuboid, item, joint, script, text, thing, write
 
 
 @pytest.fixture(autouse=True)
@@ -157,6 +157,14 @@ def test_without_a_home_the_error_names_what_to_set(tmp_path: Path) -> None:
 def test_check_takes_it(tmp_path: Path) -> None:
     file = write(tmp_path / "box.ttt", FLOOR, BOX)
     assert program("check", str(file)).stdout == f"{file}: fine\n"
+
+
+def test_links_of_joints_are_not_damped_each_for_itself(tmp_path: Path) -> None:
+    material = item("Mat", item("_uN", struct.pack("<2i5d", 5, 0, 0, 1, 1, 0.5, 0.5)) + b"EOO")
+    box = thing("SHP", 13, 11, "Arm", cuboid((1, 0.05, 0.05), 1) + material)
+    file = write(tmp_path / "arm.ttt", thing("JNT", 11, -1, "motor", joint(0, 0, 0)), box)
+    assert program("convert", str(file), str(tmp_path / "folder")).returncode == 0
+    assert "velocity_decay" not in (tmp_path / "folder" / "scene.sdf").read_text()
 
 
 VISION = """sim = require'sim'

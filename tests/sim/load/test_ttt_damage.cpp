@@ -105,6 +105,16 @@ TEST(TttDamage, LeavesOutMeshesWithoutAnyArea) {
   EXPECT_TRUE(holds(parts({0, 0, 0, 1e7F, 0, 0, 0, 1e7F, 0}).second, "50 km"));
 }
 
+TEST(TttDamage, PutsACentreOfMassThatCannotBeAtTheOrigin) {
+  ObjectText shape{"SHP", 1, -1, "heavy", {1, 0, 0, 0, 0, 0, 0}, "", cuboid(kDynamic)};
+  const std::string origin = item("Com", doubles({0, 0, 0}));
+  shape.own.replace(shape.own.find(origin), origin.size(), item("Com", doubles({0, 0, 1e30})));
+  const SceneFile scene = read_scene_file(file({shape}));
+  EXPECT_EQ(scene.objects.at(0).as<Shape>()->centre_of_mass, Vector3());
+  ASSERT_EQ(scene.damaged.size(), 1U);
+  EXPECT_NE(scene.damaged[0].what.find("the centre of mass is out of range"), std::string::npos);
+}
+
 TEST(TttDamage, LeavesOutCompoundsThatNestTooDeep) {
   std::string compound = "EOO";
   for (int i = 0; i < 20'000; ++i) compound = item("Wrp", compound) + "EOO";

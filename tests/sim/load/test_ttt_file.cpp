@@ -198,6 +198,22 @@ TEST(TttFile, ReadsTheUpperLimitOfAJointAsARange) {
   EXPECT_TRUE(read.is_dynamic);
 }
 
+TEST(TttFile, HoldsAJointWithANegativeRangeAtItsSmallestPosition) {
+  const std::string list = item("_mr", doubles({0.5, -1}));
+  Bytes bytes(list);
+  const Joint read = read_joint(TagList(bytes));
+  EXPECT_EQ(read.lower, 0.5);
+  EXPECT_EQ(read.upper, 0.5);
+}
+
+TEST(TttFile, TurnsAScrewWithALeadThatCannotBeOnTheSpot) {
+  for (const double lead : {1e-40, 1e20, -1e20}) {
+    const std::string list = item("Sld", doubles({lead}));
+    Bytes bytes(list);
+    EXPECT_EQ(read_joint(TagList(bytes)).lead, 0);
+  }
+}
+
 TEST(TttFile, ReadsTheTextOfScripts) {
   // By the rule of the format: F = 'a', L = 'd', s = 48, e = 300; b[1] += 1 + s + e, b[2] -= 3 * 2 + s.
   std::string obscured = "abcd";

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 
 #include "load/ttt/read_objects.hpp"
@@ -9,6 +10,8 @@ namespace {
 constexpr int kDependentMode = 4;
 constexpr int kOldDependentMode = 3;
 constexpr int kDynamicMode = 5;
+constexpr double kLeastLead = 1e-6;  // m per rad; a screw with less turns on the spot
+constexpr double kMostLead = 100;
 
 /// `bits`: of the old item Va9, which has the mode of the motor where Dcm is missing.
 JointControl control_of(const TagList& list, unsigned bits) {
@@ -58,12 +61,13 @@ Joint read_joint(const TagList& list) {
   joint.position = list.number("Prt", "_rt").value_or(0);
   if (const auto range = list.numbers("Pmr", "_mr", 2); !range.empty()) {
     joint.lower = range[0];
-    joint.upper = range[0] + range[1];
+    joint.upper = range[0] + std::max(range[1], 0.0);
   }
   const unsigned bits = list.u8("Va9").value_or(0);
   joint.is_cyclic = (bits & 1U) != 0 && joint.type == JointType::kRevolute;
   joint.lead = list.number("Jsp", "_sp").value_or(0);
   if (const auto per_turn = list.number("", "Sld")) joint.lead = *per_turn / (2 * M_PI);
+  if (const double size = std::abs(joint.lead); size < kLeastLead || size > kMostLead) joint.lead = 0;
   joint.rotation = list.rotation("Jst", "_st").value_or(Quaternion());
   const int mode = list.integer("Jmd", 0);
   joint.is_dynamic = mode == kDynamicMode || (bits & 0x40U) != 0;

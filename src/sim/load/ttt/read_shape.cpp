@@ -89,7 +89,12 @@ class ShapeReader {
     const double mass = body.number("Mas", "_as").value_or(0);
     note_damage(body.damage(), [&] { require_sane(mass, 0, kMostMass, "the mass", offset); });
     shape_.mass = mass > 0 && mass <= kMostMass ? mass : kLeastMass;
-    note_damage(body.damage(), [&] { read_inertia(body, shape_); });
+    note_damage(body.damage(), [&] {
+      read_inertia(body, shape_);
+      if (shape_.centre_of_mass.cwiseAbs().maxCoeff() <= kMostSize) return;
+      shape_.centre_of_mass = Vector3();
+      fail_at(offset, "the centre of mass is out of range");
+    });
   }
 
   void read_compound(Bytes bytes, bool is_outermost, int depth) {

@@ -125,7 +125,8 @@ class ModelWriter {
     pugi::xml_node link = write_link(i, body(i).shape);
     put_pose(link, model_pose_.inverse() * at_zero(i));
     write_inertial(link, *c_.object(body(i).shape).as<Shape>());
-    write_damping(link, *c_.object(body(i).shape).as<Shape>(), c_.file.settings);
+    // Links of joints would be slowed each for itself: a rope of 70 thrashed.
+    if (group_.connections.empty()) write_damping(link, *c_.object(body(i).shape).as<Shape>(), c_.file.settings);
     write_members(link, i, body(i).members, in_file(i), {false, is_wheel(i)});
   }
 
