@@ -267,4 +267,11 @@ def test_it_needs_no_ros() -> None:
 
 def test_a_name_with_a_typo_is_answered_with_the_nearest_one() -> None:
     with pytest.raises(AttributeError, match=r"has no attribute 'Simulaton'; did you mean bubblesim\.Simulation\?"):
-        bubblesim.Simulaton  # type: ignore[attr-defined]  # noqa: B018
+        bubblesim.Simulaton  # noqa: B018
+
+
+def test_none_is_no_scene() -> None:
+    with pytest.raises(TypeError, match="incompatible constructor arguments"):
+        bubblesim.Simulation(None)
+    with pytest.raises(TypeError, match="incompatible constructor arguments"):
+        bubblesim.Batch(None, 1)

@@ -172,7 +172,7 @@ worlds and threads.
 :param randomize: Distributions by quantity, such as {"/Tricycle.mass": Distribution.uniform(8, 12)}, drawn for each
     world at the start and after resets, by its seed alone; see `Simulation.randomize`.
 :raises ValueError: if the scene does not have a quantity; lists those that there are.)")
-      .def(py::init(&make_batch), py::arg("scene"), py::arg("worlds"), py::kw_only(), py::arg("seed") = 0,
+      .def(py::init(&make_batch), py::arg("scene").none(false), py::arg("worlds"), py::kw_only(), py::arg("seed") = 0,
            py::arg("threads") = py::none(), py::arg("actions") = std::vector<std::string>(),
            py::arg("observations") = std::vector<std::string>(), py::arg("dtype") = "float32",
            py::arg("randomize") = Distributions())

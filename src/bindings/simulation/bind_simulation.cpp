@@ -270,7 +270,7 @@ Equal seeds and equal commands give bitwise equal states in every process.
       .def(py::init([](const std::shared_ptr<Scene>& scene, std::uint64_t seed) {
              return std::make_unique<Simulation>(scene, seed);
            }),
-           py::arg("scene"), py::kw_only(), py::arg("seed") = 0)
+           py::arg("scene").none(false), py::kw_only(), py::arg("seed") = 0)
       .def(
           "step", &step_simulation, py::arg("steps") = 1, py::call_guard<py::gil_scoped_release>(),
           "Run `steps` simulation steps of `time_step` seconds, without holding the GIL.\n\n"

@@ -298,8 +298,11 @@ TEST(ModelText, ThatCannotBeUsedStatesWhere) {
       {"<sdf version='1.9'/>", "<data-string>"},
       {"<sdf version='1.9'><world name='w'/></sdf>", "contains a <world>: expected a <model>"},
       {sphere_model("0"), "<data-string>:2: /Ball/l: the mass is 0 kg"},
-      {sphere_model("heavy"), "<data-string>:3: /Ball/l: <mass> has the invalid value 'heavy'"},
+      {sphere_model("heavy"), "<data-string>:3: /Ball/l: <mass> has the invalid value 'heavy': it must be a number"},
       {sphere_model("nan"), "<data-string>:2: /Ball/l: the mass is nan kg"},
+      {"<sdf version='1.9'><model name='m'><link name='l'><collision name='c'><geometry><box><size>1 1</size></box>"
+       "</geometry></collision></link></model></sdf>",
+       "<size> has the invalid value '1 1': it must be three numbers, separated by spaces"},
       {"<robot name='r'><link name='world'/></robot>", "contains no <link> except the world"},
       {"<robot/>", "<data-string>: No name given for the robot."},
   };

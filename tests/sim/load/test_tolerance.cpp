@@ -111,6 +111,12 @@ TEST(Gazebo, ReadsTheNumberBeforeAUnit) {
   expect_warning(found, "odd.sdf:3: /m/l: <mass> is '2 kg': using 2");
 }
 
+TEST(Numbers, WithACommaAreWarnedOf) {
+  const Read found = read_model("<link name='l'><inertial><mass>2,5</mass></inertial></link>");
+  EXPECT_EQ(found.model().links.at(0).mass, 2);
+  expect_warning(found, "<mass> is '2,5': using 2; numbers have a decimal point, as 0.5");
+}
+
 TEST(Gazebo, TurnsLasersRoundThatGoFromHighToLow) {
   const Read found =
       read_sensor("ray",

@@ -49,6 +49,17 @@ std::size_t count_words(const std::string& text) {
   return found;
 }
 
+/// The end of a message about a value such as 0,5; else empty.
+std::string with_comma(const std::string& text) {
+  const auto is_digit = [&](std::size_t at) { return std::isdigit(static_cast<unsigned char>(text[at])) != 0; };
+  for (std::size_t comma = text.find(','); comma != std::string::npos; comma = text.find(',', comma + 1)) {
+    if (comma > 0 && comma + 1 < text.size() && is_digit(comma - 1) && is_digit(comma + 1)) {
+      return "; numbers have a decimal point, as 0.5, and spaces between them";
+    }
+  }
+  return {};
+}
+
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
   return text;
@@ -161,7 +172,7 @@ class ValueCheck {
     read_numbers(element_.text, numbers);
     if (numbers.size() < wanted) return refuse_or_use_default(false);
     numbers.resize(wanted);
-    warn("is '" + element_.text + "': using " + write_numbers(numbers));
+    warn("is '" + element_.text + "': using " + write_numbers(numbers) + with_comma(element_.text));
     replace(write_numbers(numbers));
   }
 
@@ -182,9 +193,30 @@ class ValueCheck {
     const std::string given = element_.text;
     replace(kind_.default_text);
     if (kind_.required || kind_.default_text.empty() || shows_intention) {
-      return report("has the invalid value '" + given + "' (wrong type or out of range)");
+      return report("has the invalid value '" + given + "': it must be " + wanted_value() + with_comma(given));
     }
     warn("is '" + given + "', which cannot be read: using the default " + kind_.default_text);
+  }
+
+  std::string wanted_value() const {
+    switch (kind_.type) {
+      case ValueType::kFlag:
+        return "true or false";
+      case ValueType::kColor:
+        return "three or four numbers from 0 to 1";
+      case ValueType::kVector2:
+        return "two numbers, separated by spaces";
+      case ValueType::kVector3:
+        return "three numbers, separated by spaces";
+      default:
+        break;
+    }
+    const std::string kind = kind_.type == ValueType::kInteger ? "a whole number" : "a number";
+    if (std::isfinite(kind_.min) && std::isfinite(kind_.max)) {
+      return kind + " from " + write_numbers({kind_.min}) + " to " + write_numbers({kind_.max});
+    }
+    if (std::isfinite(kind_.min)) return kind + ", at least " + write_numbers({kind_.min});
+    return std::isfinite(kind_.max) ? kind + ", at most " + write_numbers({kind_.max}) : kind;
   }
 
   void replace(const std::string& text) { element_.text = text; }
