@@ -33,7 +33,9 @@ def test_the_new_scene_runs_as_it_is(tmp_path: Path) -> None:
         ("empty", 1, r"^$"),
     ],
 )
-def test_each_template_moves_as_its_script_commands(tmp_path: Path, template: str, seconds: float, expected: str) -> None:
+def test_each_template_moves_as_its_script_commands(
+    tmp_path: Path, template: str, seconds: float, expected: str
+) -> None:
     bubblesim("new-scene", "mine", "--template", template, cwd=tmp_path)
     run = bubblesim("run", "./mine.sdf", "--no-ros", "--speed", "max", "--until", seconds, "--strict", cwd=tmp_path)
     assert (run.returncode, without_slowness(run.stderr)) == (0, "")
