@@ -66,10 +66,10 @@ def scene_of(box_count: int, robots: int = 1, more: str = "", solver: str = "bub
 class Ours:
     """Tricycles side by side in bubblesim."""
 
-    def __init__(self, box_count: int, robots: int = 1, solver: str = "bubblesim") -> None:
-        """Load the scene and set the commands for a circle."""
+    def __init__(self, box_count: int, robots: int = 1, more: str = "", solver: str = "bubblesim") -> None:
+        """Load the scene, with more models in SDFormat, and set the commands for a circle."""
         with tempfile.NamedTemporaryFile("w", suffix=".sdf") as file:
-            file.write(scene_of(box_count, robots, solver=solver))
+            file.write(scene_of(box_count, robots, more, solver))
             file.flush()
             self.simulation = bubblesim.Simulation(file.name)
         for i in range(robots):
@@ -220,7 +220,7 @@ def main() -> None:
         for name, took in times.items():
             print(f"{count:4} boxes  {name:10} {took:8.2f} us a substep, {took / times['ODE']:6.2f} x ODE")
     for solver in ("ode", "bubblesim"):
-        crowds = {str(robots): Ours(0, robots, solver).run for robots in (1, 10, 100)}
+        crowds = {str(robots): Ours(0, robots, solver=solver).run for robots in (1, 10, 100)}
         for robots, took in medians(crowds, max(rounds // 4, 3), 100).items():
             print(f"{robots:>4} tricycles, {solver:9} {took:10.2f} us a substep, {took / int(robots):6.2f} each")
 

@@ -43,13 +43,6 @@ void sink(double depth, const SurfacePair& pair, double step, dContact& contact)
   contact.surface.motionN = -std::min(pair.sink_speed, kErrorReduction * left / step);
 }
 
-/// Whether a body sleeps. Null is the static world.
-bool sleeps(dBodyID body) { return body == nullptr || dBodyIsEnabled(body) == 0; }
-
-bool sleeps(const PlacedModel& model) {
-  return std::all_of(model.links.begin(), model.links.end(), [](const Link& link) { return sleeps(link.body.get()); });
-}
-
 /// Whether joints or a motor act on the links of a model.
 bool is_jointed(const PlacedModel& model) { return !model.joints.empty() || model.planar_motor.exists(); }
 
@@ -62,13 +55,11 @@ void touch(void* data, dGeomID first, dGeomID second) {
   const Collider& b = collider_of(second);
   if (a.link == b.link) return;
   // Static shapes come second: those that move with a model do not collide with it.
-  if (b.carrier != kNoObject && a.model != Collider::kNoModel &&
-      substep.moving[static_cast<std::size_t>(a.model)]->object == b.carrier) {
+  if (b.carrier != kNoObject && a.model != Collider::kNoModel && substep.moving.at(a.model).object == b.carrier) {
     return;
   }
   dBodyID body_a = dGeomGetBody(first);
   dBodyID body_b = dGeomGetBody(second);
-  if (sleeps(body_a) && sleeps(body_b)) return;
   if (body_a != nullptr && body_b != nullptr && dAreConnectedExcluding(body_a, body_b, dJointTypeContact) != 0) return;
 
   ContactPoints points;
@@ -125,21 +116,21 @@ dGeomID as_geom(dSpaceID space) { return reinterpret_cast<dGeomID>(space); }
 
 void search_contacts(Substep& substep) {
   const MovingModels& moving = substep.moving;
+  Islands& islands = substep.contacts.islands;
+  const Spaces& spaces = substep.spaces;
   dJointGroupEmpty(substep.ode.contact_joints.get());
   substep.contacts.found.clear();
-  substep.contacts.islands.clear(moving.size());
-  for (std::size_t i = 0; i < moving.size(); ++i) {
-    if (is_jointed(*moving[i])) substep.contacts.islands.set_jointed(static_cast<int>(i));
-  }
-  if (std::all_of(moving.begin(), moving.end(), [](const PlacedModel* model) { return sleeps(*model); })) return;
+  islands.clear(moving.all.size());
+  for (const PlacedModel* model : moving.awake) islands.add(model->number, is_jointed(*model));
   // Collide models with each other; shapes of one model collide only with self_collide.
-  if (moving.size() > 1) dSpaceCollide(substep.spaces.movers.get(), &substep, touch_spaces);
-  for (const PlacedModel* model : moving) {
+  if (moving.awake.size() > 1) dSpaceCollide(spaces.movers.get(), &substep, touch_spaces);
+  const bool any_sleeps = moving.awake.size() < moving.all.size();
+  for (const PlacedModel* model : moving.awake) {
     dSpaceID space = model->space.get();
-    if (sleeps(*model)) continue;
     if (model->description.self_collide) dSpaceCollide(space, &substep, touch);
-    dSpaceCollide2(as_geom(space), as_geom(substep.spaces.statics.get()), &substep, touch);
-    dSpaceCollide2(as_geom(space), as_geom(substep.spaces.planes.get()), &substep, touch);
+    if (any_sleeps) dSpaceCollide2(as_geom(space), as_geom(spaces.sleepers.get()), &substep, touch_spaces);
+    dSpaceCollide2(as_geom(space), as_geom(spaces.statics.get()), &substep, touch);
+    dSpaceCollide2(as_geom(space), as_geom(spaces.planes.get()), &substep, touch);
   }
 }
 

@@ -2,7 +2,6 @@
 #include "physics/contacts/contact_memory.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "physics/ode/ode_math.hpp"
@@ -120,22 +119,7 @@ void remember_contacts(const FoundContacts& found, ContactMemory& memory, Contac
   std::swap(before, memory);
   memory.clear();
   ContactLookup lookup(before);
-  std::size_t next = 0;  // of the pairs before, those asleep are kept
-  const auto keep_sleeping = [&](const std::pair<int, int>& until) {
-    for (; next < before.pairs.size(); ++next) {
-      RememberedPair pair = before.pairs[next];
-      const auto own = numbers(pair.first, pair.second);
-      if (own >= until) break;
-      if (!both_sleep(pair)) continue;
-      const auto begin = before.points.begin() + static_cast<std::ptrdiff_t>(pair.begin);
-      pair.begin = memory.points.size();
-      memory.points.insert(memory.points.end(), begin, begin + pair.count);
-      memory.pairs.push_back(pair);
-    }
-    if (next < before.pairs.size() && numbers(before.pairs[next].first, before.pairs[next].second) == until) ++next;
-  };
   for (const FoundPair& pair : found.pairs) {
-    keep_sleeping(numbers(pair.first, pair.second));
     RememberedPair now{pair.first, pair.second, memory.points.size(), pair.count};
     if (const RememberedPair* last = lookup.pair(pair)) {
       now.age = std::min(last->age + 1, kSteadyAge);
@@ -151,7 +135,23 @@ void remember_contacts(const FoundContacts& found, ContactMemory& memory, Contac
     }
     memory.pairs.push_back(now);
   }
-  keep_sleeping({std::numeric_limits<int>::max(), 0});
+}
+
+void sort_by_sleep(ContactMemory& memory, ContactMemory& asleep) {
+  const std::array<ContactMemory, 2> before = {std::exchange(memory, {}), std::exchange(asleep, {})};
+  for (const ContactMemory& from : before) {
+    for (RememberedPair pair : from.pairs) {
+      ContactMemory& to = both_sleep(pair) ? asleep : memory;
+      const auto begin = from.points.begin() + static_cast<std::ptrdiff_t>(pair.begin);
+      pair.begin = to.points.size();
+      to.points.insert(to.points.end(), begin, begin + pair.count);
+      to.pairs.push_back(pair);
+    }
+  }
+  const auto by_numbers = [](const RememberedPair& a, const RememberedPair& b) {
+    return numbers(a.first, a.second) < numbers(b.first, b.second);
+  };
+  for (ContactMemory* sorted : {&memory, &asleep}) std::sort(sorted->pairs.begin(), sorted->pairs.end(), by_numbers);
 }
 
 }  // namespace bubblesim

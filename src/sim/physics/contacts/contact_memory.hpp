@@ -72,9 +72,11 @@ using ExpectedContacts = std::array<ExpectedContact, kMaxContactsPerPair>;
 ExpectedContacts expect(const ContactMemory& memory, const RememberedPair& remembered, const FoundPair& pair,
                         const FoundContact* points, double step);
 
-/// Replaces the memory by the contacts of the substep that was just solved. Pairs that sleep are kept. `before` is
-/// working memory.
+/// Replaces the memory by the contacts of the substep that was just solved. `before` is working memory.
 void remember_contacts(const FoundContacts& found, ContactMemory& memory, ContactMemory& before);
+
+/// Moves the pairs of which both bodies sleep to `asleep`, and the others to `memory`.
+void sort_by_sleep(ContactMemory& memory, ContactMemory& asleep);
 
 /// Drops the contacts of the shapes for which `belongs` is true: of a model that was moved or will be removed.
 void forget_contacts(ContactMemory& memory, const std::function<bool(const Collider&)>& belongs);

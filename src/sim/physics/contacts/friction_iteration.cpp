@@ -95,7 +95,7 @@ void FrictionIteration::collect(Substep& substep) {
     const int island = islands.of(found.first->model);
     if (is_exact(islands, island)) pairs_.push_back({&found, island});
   }
-  islands_.assign(substep.moving.size(), {true});
+  islands_.assign(substep.moving.all.size(), {true});
 }
 
 bool FrictionIteration::judge(FoundContacts& found) {
@@ -171,9 +171,9 @@ bool FrictionIteration::solve(Substep& substep, const std::vector<KeptBody>& bef
     for (int i = 0; i < pair.found->count; ++i) join(substep.ode, *pair.found, points[i]);
   }
   others_.clear();
-  for (std::size_t i = 0; i < substep.moving.size(); ++i) {
-    if (is_again(substep.contacts.islands.of(static_cast<int>(i)))) continue;
-    for (const Link& link : substep.moving[i]->links) {
+  for (const PlacedModel* model : substep.moving.awake) {
+    if (is_again(substep.contacts.islands.of(model->number))) continue;
+    for (const Link& link : model->links) {
       if (dBodyIsEnabled(link.body.get()) != 0) others_.push_back(link.body.get());
     }
   }

@@ -29,11 +29,11 @@ struct Split {
 Split split(Substep& substep, bool iterate_all) {
   Islands& islands = substep.contacts.islands;
   Split made;
-  for (std::size_t i = 0; i < substep.moving.size(); ++i) {
-    const int island = islands.of(static_cast<int>(i));
+  for (const PlacedModel* model : substep.moving.awake) {
+    const int island = islands.of(model->number);
     const bool is_iterated = islands.is_jointed(island) && (iterate_all || islands.is_beyond_limit(island));
     Bodies& bodies = is_iterated ? made.iterated : made.exact;
-    for (const Link& link : substep.moving[i]->links) {
+    for (const Link& link : model->links) {
       if (dBodyIsEnabled(link.body.get()) != 0) bodies.push_back(link.body.get());
     }
   }
@@ -47,9 +47,9 @@ Split split(Substep& substep, bool iterate_all) {
 bool IslandSolvers::step_exactly(Substep& substep) {
   std::vector<KeptBody>& kept = bodies_before_;
   kept.clear();
-  for (std::size_t i = 0; i < substep.moving.size(); ++i) {
-    const int island = substep.contacts.islands.of(static_cast<int>(i));
-    for (const Link& link : substep.moving[i]->links) {
+  for (const PlacedModel* model : substep.moving.awake) {
+    const int island = substep.contacts.islands.of(model->number);
+    for (const Link& link : model->links) {
       dBodyID body = link.body.get();
       if (dBodyIsEnabled(body) != 0) kept.push_back({body, island, numbers_of(body)});
     }
@@ -118,14 +118,12 @@ void IslandSolvers::solve_trees(Substep& substep) {
 void IslandSolvers::solve_rest(Substep& substep) {
   by_trees_.clear();
   bool is_rest = false;
-  for (std::size_t i = 0; i < substep.moving.size(); ++i) {
-    Islands& islands = substep.contacts.islands;
-    const bool is_by_trees = islands.is_by_trees(islands.of(static_cast<int>(i)));
-    for (const Link& link : substep.moving[i]->links) {
-      if (dBodyIsEnabled(link.body.get()) == 0) continue;
-      if (is_by_trees) by_trees_.push_back(link.body.get());
-      is_rest = is_rest || !is_by_trees;
-    }
+  Islands& islands = substep.contacts.islands;
+  for (const PlacedModel* model : substep.moving.awake) {
+    const bool is_by_trees = islands.is_by_trees(islands.of(model->number));
+    is_rest = is_rest || !is_by_trees;
+    if (!is_by_trees) continue;
+    for (const Link& link : model->links) by_trees_.push_back(link.body.get());
   }
   if (!is_rest) return;
   disable(by_trees_);

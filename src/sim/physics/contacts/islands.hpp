@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -20,19 +19,25 @@ class Islands {
   static constexpr int kMaxContacts = 20;
   static constexpr int kMaxContactsAlone = 40;
 
-  /// Starts with each model alone.
+  /// Starts anew, without islands. Where touch() names a model that is not added, islands are of no use: such models
+  /// sleep, wake by the touch, and the search begins again.
   void clear(std::size_t models) {
     parents_.resize(models);
-    std::iota(parents_.begin(), parents_.end(), 0);
-    contacts_.assign(models, 0);
-    models_.assign(models, 1);
-    jointed_.assign(models, false);
-    by_trees_.assign(models, false);
+    contacts_.resize(models);
+    models_.resize(models);
+    jointed_.resize(models);
+    by_trees_.resize(models);
     most_ = 0;
   }
 
-  /// Call it before touch().
-  void set_jointed(int model) { jointed_[index(model)] = true; }
+  /// Starts an island of one model.
+  void add(int model, bool is_jointed) {
+    parents_[index(model)] = model;
+    contacts_[index(model)] = 0;
+    models_[index(model)] = 1;
+    jointed_[index(model)] = is_jointed;
+    by_trees_[index(model)] = false;
+  }
 
   /// Adds contacts between two models, one of which may be kNone.
   void touch(int a, int b, int contacts) {

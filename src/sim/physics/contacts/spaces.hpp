@@ -7,9 +7,10 @@
 namespace bubblesim {
 
 struct Spaces {
-  ode::SpaceHandle movers;   // one space per moving model
-  ode::SpaceHandle statics;  // geoms without a body, of finite size
-  ode::SpaceHandle planes;   // infinite geoms would degrade the quadtree of the statics
+  ode::SpaceHandle movers;    // one space per moving model that is awake
+  ode::SpaceHandle sleepers;  // likewise of those that sleep; null without models that may
+  ode::SpaceHandle statics;   // geoms without a body, of finite size
+  ode::SpaceHandle planes;    // infinite geoms would degrade the quadtree of the statics
 };
 
 }  // namespace bubblesim

@@ -17,8 +17,9 @@ namespace bubblesim {
 /// The contacts of a world in the last substep.
 struct Contacts {
   FoundContacts found;
-  Islands islands;  // of models, by their index among the moving ones
-  ContactMemory memory;
+  Islands islands;              // of models, by their index among the moving ones
+  ContactMemory memory;         // between models of which one is awake
+  ContactMemory asleep;         // of models that sleep
   ContactMemory memory_before;  // working memory
   ContactFilter filter;         // may be empty
 };
@@ -26,7 +27,7 @@ struct Contacts {
 struct Substep {
   double duration;  // s
   const Vector3& gravity;
-  const MovingModels& moving;
+  MovingModels& moving;
   const Spaces& spaces;
   OdeWorld& ode;
   Contacts& contacts;

@@ -2,12 +2,9 @@
 #include "physics/contacts/tree_model.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include "physics/ode/body_state.hpp"
-#include "physics/ode/constraint_defaults.hpp"
 #include "physics/ode/ode_math.hpp"
 
 namespace bubblesim {
@@ -15,16 +12,6 @@ namespace {
 
 constexpr double kMostTurn = 0.5;        // rad in a substep, of a link that swings
 constexpr double kMostTurnInSeries = 3;  // rad in a substep, of all links in series if they turned as fast
-constexpr double kReachOfStop = 1000;    // rad/s^2 or m/s^2, with which an axis may reach a stop in a substep
-
-TreeMotion motion_of(const std::string& type) {
-  if (type == "prismatic") return TreeMotion::kSlides;
-  if (type == "screw") return TreeMotion::kScrews;
-  if (type == "fixed") return TreeMotion::kFixed;
-  if (type == "ball") return TreeMotion::kBall;
-  if (type == "universal" || type == "revolute2") return TreeMotion::kTwoAxes;
-  return TreeMotion::kTurns;
-}
 
 bool closes_loops(const std::string& type) {
   const TreeMotion motion = motion_of(type);
@@ -47,6 +34,15 @@ Pose in_body(const Link& link, const Pose& in_link) {
 }
 
 }  // namespace
+
+TreeMotion motion_of(const std::string& type) {
+  if (type == "prismatic") return TreeMotion::kSlides;
+  if (type == "screw") return TreeMotion::kScrews;
+  if (type == "fixed") return TreeMotion::kFixed;
+  if (type == "ball") return TreeMotion::kBall;
+  if (type == "universal" || type == "revolute2") return TreeMotion::kTwoAxes;
+  return TreeMotion::kTurns;
+}
 
 std::size_t TreeModel::place_of(ObjectId link) const {
   for (std::size_t i = 0; i < model_.links.size(); ++i) {
@@ -152,8 +148,7 @@ bool TreeModel::knows_joints_of(const PlacedModel& model) {
 }
 
 bool TreeModel::knows_parts() const {
-  return !model_.planar_motor.exists() &&
-         std::all_of(model_.joints.begin(), model_.joints.end(),
+  return std::all_of(model_.joints.begin(), model_.joints.end(),
                      [](const auto& joint) { return joint.joint != nullptr; }) &&
          std::all_of(loops_.begin(), loops_.end(),
                      [&](std::size_t joint) { return model_.joints[joint].meter == nullptr; });
@@ -182,18 +177,22 @@ void TreeModel::note_what_swings() {
   most_turn_ = std::min(kMostTurn, kMostTurnInSeries / most);
 }
 
+template <class RateOf>
+bool TreeModel::any_turns_too_far(double step, const RateOf& rate_of) const {
+  return std::any_of(swinging_.begin(), swinging_.end(),
+                     [&](int link) { return rate_of(link).norm() * step > most_turn_; });
+}
+
 bool TreeModel::turns_too_far(double step) const {
-  return std::any_of(swinging_.begin(), swinging_.end(), [&](int link) {
-    dBodyID body = model_.links[places_[static_cast<std::size_t>(link)]].body.get();
-    return to_vector(dBodyGetAngularVel(body)).norm() * step > most_turn_;
+  return any_turns_too_far(step, [&](int link) {
+    return to_vector(dBodyGetAngularVel(model_.links[places_[static_cast<std::size_t>(link)]].body.get()));
   });
 }
 
 bool TreeModel::would_turn_too_far(double step) {
   if (tree_.rates().lpNorm<1>() * step < most_turn_) return false;
   tree_.set_velocities(tree_.rates());
-  return std::any_of(swinging_.begin(), swinging_.end(),
-                     [&](int link) { return tree_.velocity(link).angular.norm() * step > most_turn_; });
+  return any_turns_too_far(step, [&](int link) { return tree_.velocity(link).angular; });
 }
 
 void TreeModel::begin(const Vector3& gravity, double step) {
@@ -240,123 +239,6 @@ void TreeModel::begin(const Vector3& gravity, double step) {
     wrench.torque += inertia * (velocities_[i].angular - allowed.angular) / step;
   }
   tree_.push(step, wrenches_, forces_);
-}
-
-void TreeModel::add_rows(ConstraintRows& rows, double step) {
-  motors_.clear();
-  for (const std::size_t joint : loops_) close_loop(joint, rows, step);
-  for (const std::size_t gearbox : gearboxes_) couple(gearbox, rows, step);
-  for (const Axis& axis : axes_) add_axis_rows(axis, rows, step);
-}
-
-int TreeModel::add_axis_row(const Axis& axis, ConstraintRows& rows) {
-  if (axis.dof >= 0) return rows.add_dof(tree_, axis.dof);
-  const PlacedJoint& joint = model_.joints[axis.joint];
-  const JointDescription& description = model_.description.joints[axis.joint];
-  const Pose frame = link_pose(link_of(joint.child)) * joint.in_child;
-  const Vector3 direction = frame.orientation * description.axes[0].direction;
-  if (description.type == "prismatic") {
-    return rows.add_force(body_of(joint.child), body_of(joint.parent), frame.position, direction);
-  }
-  return rows.add_torque(body_of(joint.child), body_of(joint.parent), direction);
-}
-
-void TreeModel::add_axis_rows(const Axis& axis, ConstraintRows& rows, double step) {
-  const PlacedJoint& joint = model_.joints[axis.joint];
-  const AxisForces& forces = axis.forces;
-  const auto hold = [&](const MotorForce& force) {
-    const int row = add_axis_row(axis, rows);
-    rows.set(row, force.velocity, kConstraintSoftness / step, 0);
-    ConeBlock block;
-    block.row = row;
-    block.upper = force.max_force * step;
-    block.lower = -block.upper;
-    rows.bound(block);
-    return row;
-  };
-  if (forces.motor && forces.motor->max_force > 0) {
-    const int row = hold(*forces.motor);
-    MotorMeter* meter = joint.motor_meters[static_cast<std::size_t>(axis.number)].get();
-    if (meter != nullptr) motors_.push_back({meter, row});
-  }
-  if (forces.friction) hold(*forces.friction);
-  if (axis.dof < 0 && forces.damper && forces.damper->softness > 0) {
-    const int row = add_axis_row(axis, rows);
-    rows.set(row, forces.damper->velocity, forces.damper->softness / step, 0);
-    ConeBlock block;
-    block.row = row;
-    rows.bound(block);
-  }
-  add_stops(axis, rows, step);
-}
-
-void TreeModel::add_stops(const Axis& axis, ConstraintRows& rows, double step) {
-  const Joint& joint = *model_.joints[axis.joint].joint;
-  const AxisDescription& limits = joint.axis(axis.number);
-  if (!std::isfinite(limits.lower) && !std::isfinite(limits.upper)) return;
-  const double here = joint.position(axis.number);
-  const double speed = joint.velocity(axis.number);
-  const double reach = step * (2 * std::abs(speed) + step * kReachOfStop);
-  const double infinity = std::numeric_limits<double>::infinity();
-  const auto stop = [&](double gap, double lower, double upper) {
-    const int row = add_axis_row(axis, rows);
-    const bool beyond = lower == 0 ? gap > 0 : gap < 0;
-    rows.set(row, (beyond ? kErrorReduction : 1) * gap / step, kConstraintSoftness / step, 0);
-    ConeBlock block;
-    block.row = row;
-    block.lower = lower;
-    block.upper = upper;
-    rows.bound(block);
-  };
-  if (limits.lower == limits.upper) return stop(limits.lower - here, -infinity, infinity);
-  if (here - limits.lower < reach) stop(limits.lower - here, 0, infinity);
-  if (limits.upper - here < reach) stop(limits.upper - here, -infinity, 0);
-}
-
-void TreeModel::close_loop(std::size_t number, ConstraintRows& rows, double step) {
-  const PlacedJoint& joint = model_.joints[number];
-  const JointDescription& description = model_.description.joints[number];
-  const TreeMotion motion = motion_of(description.type);
-  const Pose child = link_pose(link_of(joint.child)) * joint.in_child;
-  const Pose parent = joint.parent == kNoObject ? joint.in_parent : link_pose(link_of(joint.parent)) * joint.in_parent;
-  const TreeBody first = body_of(joint.child);
-  const TreeBody second = body_of(joint.parent);
-  const Vector3 axis = description.axes.empty() ? Vector3(Vector3::UnitX())
-                                                : Vector3(parent.orientation * description.axes[0].direction);
-  const Vector3 across = axis.unitOrthogonal();
-  const std::array<Vector3, 3> directions = {axis, across, axis.cross(across)};
-  const Vector3 apart = child.position - parent.position;
-  const Quaternion turn = child.orientation * parent.orientation.conjugate();
-  const Vector3 turned = Vector3(turn.vec()) * (turn.w() < 0 ? -2 : 2);  // rad, while it is small
-  const Vector3 tilt =
-      description.axes.empty() ? Vector3() : axis.cross(child.orientation * description.axes[0].direction);
-  const auto hold = [&](int row, double error) {
-    rows.set(row, -kErrorReduction * error / step, kConstraintSoftness / step, 0);
-    ConeBlock block;
-    block.row = row;
-    rows.bound(block);
-  };
-  for (std::size_t i = motion == TreeMotion::kSlides ? 1 : 0; i < 3; ++i) {
-    hold(rows.add_force(first, second, child.position, directions[i]), directions[i].dot(apart));
-  }
-  if (motion == TreeMotion::kBall) return;
-  for (std::size_t i = motion == TreeMotion::kTurns ? 1 : 0; i < 3; ++i) {
-    const Vector3& error = motion == TreeMotion::kTurns ? tilt : turned;
-    hold(rows.add_torque(first, second, directions[i]), directions[i].dot(error));
-  }
-}
-
-void TreeModel::couple(std::size_t number, ConstraintRows& rows, double step) {
-  const PlacedJoint& gearbox = model_.joints[number];
-  const ShaftCoupling shafts = *gearbox.joint->coupling();
-  const TreeBody reference = body_named(model_.description.joints[number].gearbox_reference);
-  const int row = rows.add_torque(body_of(gearbox.child), reference, shafts.child_axis);
-  rows.add_torque_to_last(body_of(gearbox.parent), reference, shafts.parent_axis * shafts.ratio);
-  const double error = gearbox.joint->position(1) + shafts.ratio * gearbox.joint->position(0);
-  rows.set(row, -kErrorReduction * error / step, kConstraintSoftness / step, 0);
-  ConeBlock block;
-  block.row = row;
-  rows.bound(block);
 }
 
 void TreeModel::move(const ConstraintRows& rows, double step) {

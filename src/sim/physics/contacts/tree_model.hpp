@@ -13,13 +13,16 @@
 
 namespace bubblesim {
 
+/// How a joint of a type of SDFormat moves its child.
+TreeMotion motion_of(const std::string& type);
+
 class TreeModel {
  public:
   explicit TreeModel(const PlacedModel& model);
 
   /// Whether all joints of a model are of kinds that trees know.
   static bool knows_joints_of(const PlacedModel& model);
-  /// Whether the present parts of the model are known: not planar motors and sensors in joints that close a loop.
+  /// Whether the present parts of the model are known: not sensors in joints that close a loop.
   bool knows_parts() const;
 
   /// Whether a link turns so far in a substep that the forces of its rotation, which are those at the mean of the rates
@@ -57,11 +60,15 @@ class TreeModel {
   void add_link(std::size_t joint, int parent);
   void take_inertia(std::size_t number);
   void note_what_swings();
+  /// `rate_of`: rad/s, of a link of the tree.
+  template <class RateOf>
+  bool any_turns_too_far(double step, const RateOf& rate_of) const;
   void add_axis_rows(const Axis& axis, ConstraintRows& rows, double step);
   int add_axis_row(const Axis& axis, ConstraintRows& rows);
   void add_stops(const Axis& axis, ConstraintRows& rows, double step);
   void close_loop(std::size_t joint, ConstraintRows& rows, double step);
   void couple(std::size_t gearbox, ConstraintRows& rows, double step);
+  void add_planar_motor(ConstraintRows& rows, double step);
   void move(const ConstraintRows& rows, double step);
   void keep_momenta(const Vector3& origin_before);
   void report_reactions();

@@ -10,11 +10,6 @@
 namespace bubblesim {
 namespace {
 
-bool is_awake(const PlacedModel& model) {
-  return std::any_of(model.links.begin(), model.links.end(),
-                     [](const Link& link) { return dBodyIsEnabled(link.body.get()) != 0; });
-}
-
 Vector3 velocity_at(const Link& link, const dReal* point) {
   if (link.body == nullptr) return {};
   dVector3 velocity;
@@ -26,17 +21,16 @@ Vector3 velocity_at(const Link& link, const dReal* point) {
 
 void TreeSolver::choose(Substep& substep) {
   Islands& islands = substep.contacts.islands;
-  const int count = static_cast<int>(substep.moving.size());
-  for (int i = 0; i < count; ++i) {
-    const int island = islands.of(i);
+  for (const PlacedModel* model : substep.moving.awake) {
+    const int island = islands.of(model->number);
     islands.set_by_trees(island, islands.is_jointed(island) && !islands.is_beyond_limit(island));
   }
-  for (int i = 0; i < count; ++i) {
-    PlacedModel& model = *substep.moving[static_cast<std::size_t>(i)];
-    const int island = islands.of(i);
+  for (PlacedModel* model : substep.moving.awake) {
+    const int island = islands.of(model->number);
     if (!islands.is_by_trees(island)) continue;
-    if (model.trees == nullptr && TreeModel::knows_joints_of(model)) model.trees = std::make_shared<TreeModel>(model);
-    if (model.trees == nullptr || !model.trees->knows_parts() || model.trees->turns_too_far(substep.duration)) {
+    std::shared_ptr<TreeModel>& trees = model->trees;
+    if (trees == nullptr && TreeModel::knows_joints_of(*model)) trees = std::make_shared<TreeModel>(*model);
+    if (trees == nullptr || !trees->knows_parts() || trees->turns_too_far(substep.duration)) {
       islands.set_by_trees(island, false);
     }
   }
@@ -44,7 +38,7 @@ void TreeSolver::choose(Substep& substep) {
 
 TreeBody TreeSolver::body_of(const Collider& collider, const Substep& substep) const {
   if (collider.model == Collider::kNoModel) return {};
-  return substep.moving[static_cast<std::size_t>(collider.model)]->trees->body(*collider.link);
+  return substep.moving.at(collider.model).trees->body(*collider.link);
 }
 
 void TreeSolver::solve(Substep& substep) {
@@ -57,10 +51,9 @@ void TreeSolver::gather(Substep& substep) {
   Contacts& contacts = substep.contacts;
   models_.clear();
   pairs_.clear();
-  for (std::size_t i = 0; i < substep.moving.size(); ++i) {
-    const int island = contacts.islands.of(static_cast<int>(i));
-    if (!contacts.islands.is_by_trees(island) || !is_awake(*substep.moving[i])) continue;
-    models_.push_back({island, substep.moving[i]->trees.get()});
+  for (const PlacedModel* model : substep.moving.awake) {
+    const int island = contacts.islands.of(model->number);
+    if (contacts.islands.is_by_trees(island)) models_.push_back({island, model->trees.get()});
   }
   ContactLookup lookup(contacts.memory);
   for (const FoundPair& pair : contacts.found.pairs) {

@@ -32,7 +32,7 @@ class ImpactSearch {
       : moving_(substep.moving),
         spaces_(substep.spaces),
         fast_(fast),
-        stopped_(substep.moving.size(), 1),
+        stopped_(substep.moving.all.size(), 1),
         probe_(dCreateBox(nullptr, 1, 1, 1)) {}
 
   /// By moving model: the fraction of the substep at which it is stopped; 1 if it is not.
@@ -77,8 +77,8 @@ class ImpactSearch {
     dGeomSetCategoryBits(probe_.get(), dGeomGetCategoryBits(collider.geom.get()));
     dGeomSetCollideBits(probe_.get(), dGeomGetCollideBits(collider.geom.get()));
     swept_ = Bounds(centre - size / 2, centre + size / 2);
-    for (dSpaceID space : {spaces_.movers.get(), spaces_.statics.get(), spaces_.planes.get()}) {
-      dSpaceCollide2(probe_.get(), reinterpret_cast<dGeomID>(space), this, meet);
+    for (dSpaceID space : {spaces_.movers.get(), spaces_.sleepers.get(), spaces_.statics.get(), spaces_.planes.get()}) {
+      if (space != nullptr) dSpaceCollide2(probe_.get(), reinterpret_cast<dGeomID>(space), this, meet);
     }
   }
 
@@ -105,7 +105,7 @@ class ImpactSearch {
 
   void test(const Collider& a, const Collider& b) {
     if (!may_touch(a, b)) return;
-    if (a.model == b.model && !moving_[static_cast<std::size_t>(a.model)]->description.self_collide) return;
+    if (a.model == b.model && !moving_.at(a.model).description.self_collide) return;
     const RigidMotion motion_a = motion_of(*a.link);
     const RigidMotion motion_b = motion_of(*b.link);
     shapes_of(a.geom.get(), shapes_a_);
@@ -243,7 +243,7 @@ void measure(const Collider& collider, Sweep& sweep) {
 }
 
 void note_motion(const MovingModels& moving) {
-  for (PlacedModel* model : moving) {
+  for (PlacedModel* model : moving.awake) {
     for (Link& link : model->links) {
       link.sweep.start = body_transform(link.body.get());
     }
@@ -253,7 +253,7 @@ void note_motion(const MovingModels& moving) {
 void stop_at_impacts(Substep& substep) {
   thread_local std::vector<FastLink> fast;
   fast.clear();
-  for (PlacedModel* model : substep.moving) {
+  for (PlacedModel* model : substep.moving.awake) {
     for (const Link& link : model->links) {
       const Sweep& sweep = link.sweep;
       if (sweep.half_size == Sweep::kNoSize) continue;
@@ -267,7 +267,7 @@ void stop_at_impacts(Substep& substep) {
   ImpactSearch search(substep, fast);
   const std::vector<double>& stopped = search.find();
   for (std::size_t i = 0; i < stopped.size(); ++i) {
-    if (stopped[i] < 1) put_back(*substep.moving[i], substep.gravity, stopped[i], substep.duration);
+    if (stopped[i] < 1) put_back(*substep.moving.all[i], substep.gravity, stopped[i], substep.duration);
   }
 }
 

@@ -35,7 +35,7 @@ void note_lever(PlacedModel& model, dBodyID body, const Vector3& anchor) {
 
 void correct_joints(const MovingModels& moving, dWorldID world, double step) {
   double part = kAtRest;
-  for (const PlacedModel* model : moving) {
+  for (const PlacedModel* model : moving.awake) {
     if (!swings(*model, step)) continue;
     part = kInMotion;
     break;

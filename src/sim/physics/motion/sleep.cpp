@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "physics/ode/ode_math.hpp"
@@ -16,8 +17,6 @@ constexpr double kTime = 0.5;            // s at rest before an island sleeps
 constexpr double kDrift = 3e-3 * kTime;  // m, which a body at rest stays within in this time
 constexpr double kAngle = 3e-3 * kTime;  // rad, likewise
 
-bool is_awake(const Link& link) { return dBodyIsEnabled(link.body.get()) != 0; }
-
 void wake_model(PlacedModel& model) {
   model.rest.group = kNoObject;
   model.rest.time = 0;
@@ -25,7 +24,7 @@ void wake_model(PlacedModel& model) {
 }
 
 void wake_group(const MovingModels& moving, ObjectId group) {
-  for (PlacedModel* model : moving) {
+  for (PlacedModel* model : moving.all) {
     if (model->rest.group == group) wake_model(*model);
   }
 }
@@ -45,66 +44,95 @@ void measure(PlacedModel& model, double step) {
 
 void put_to_sleep(PlacedModel& model, ObjectId group) {
   model.rest.group = group;
-  for (const Link& link : model.links) {
+  for (Link& link : model.links) {
     dBodySetLinearVel(link.body.get(), 0, 0, 0);
     dBodySetAngularVel(link.body.get(), 0, 0, 0);
     dBodyDisable(link.body.get());
+    // What is noted of awake models at the start of an advance and of a substep.
+    link.before = {};
+    link.sweep.start = body_transform(link.body.get());
   }
 }
 
 }  // namespace
 
-void wake_commanded(const MovingModels& moving) {
-  for (const PlacedModel* model : moving) {
-    if (model->rest.group != kNoObject && std::any_of(model->links.begin(), model->links.end(), is_awake)) {
+void command(MovingModels& moving, dBodyID body) {
+  if (dBodyIsEnabled(body) != 0) return;
+  dBodyEnable(body);
+  moving.is_any_commanded = true;
+}
+
+void wake_commanded(Substep& substep) {
+  MovingModels& moving = substep.moving;
+  if (!std::exchange(moving.is_any_commanded, false)) return;
+  for (const PlacedModel* model : moving.all) {
+    const auto is_enabled = [](const Link& link) { return dBodyIsEnabled(link.body.get()) != 0; };
+    if (!model->rest.is_awake() && std::any_of(model->links.begin(), model->links.end(), is_enabled)) {
       wake_group(moving, model->rest.group);
     }
   }
+  sort_by_sleep(moving, substep.spaces, substep.contacts);
 }
 
-bool wake_touched(const MovingModels& moving, const FoundContacts& found) {
+bool wake_touched(Substep& substep) {
+  const MovingModels& moving = substep.moving;
   bool any = false;
-  for (const FoundPair& pair : found.pairs) {
+  for (const FoundPair& pair : substep.contacts.found.pairs) {
     for (const Collider* shape : {pair.first, pair.second}) {
-      // Pairs of sleeping and static shapes are not searched: the other one is awake.
-      if (shape->model == Collider::kNoModel) continue;
-      const ObjectId group = moving[static_cast<std::size_t>(shape->model)]->rest.group;
-      if (group == kNoObject) continue;
-      wake_group(moving, group);
+      // One shape of a pair is of a model that is awake.
+      if (shape->model == Collider::kNoModel || moving.at(shape->model).rest.is_awake()) continue;
+      wake_group(moving, moving.at(shape->model).rest.group);
       any = true;
     }
   }
+  if (any) sort_by_sleep(substep.moving, substep.spaces, substep.contacts);
   return any;
 }
 
 void rest(Substep& substep) {
-  const MovingModels& moving = substep.moving;
+  MovingModels& moving = substep.moving;
   Islands& islands = substep.contacts.islands;
-  const std::size_t count = moving.size();
-  thread_local std::vector<double> least;  // s, by island
-  least.assign(count, std::numeric_limits<double>::infinity());
+  const auto island_of = [&](const PlacedModel& model) { return static_cast<std::size_t>(islands.of(model.number)); };
+  struct RestOfIsland {
+    double time = std::numeric_limits<double>::infinity();  // s, of the model that moved last
+    ObjectId group = kNoObject;                             // when it goes to sleep
+  };
+  thread_local std::vector<RestOfIsland> rests;
+  rests.resize(moving.all.size());
+  for (const PlacedModel* model : moving.awake) rests[island_of(*model)] = {};
+  for (PlacedModel* model : moving.awake) {
+    if (model->rest.may_sleep) measure(*model, substep.duration);
+    double& time = rests[island_of(*model)].time;
+    time = std::min(time, model->rest.may_sleep ? model->rest.time : 0);
+  }
   bool any = false;
-  for (std::size_t i = 0; i < count; ++i) {
-    PlacedModel& model = *moving[i];
-    if (model.rest.group != kNoObject) continue;
-    if (model.rest.may_sleep) measure(model, substep.duration);
-    double& time = least[static_cast<std::size_t>(islands.of(static_cast<int>(i)))];
-    time = std::min(time, model.rest.may_sleep ? model.rest.time : 0);
-    any = any || model.rest.time >= kTime;
+  for (PlacedModel* model : moving.awake) {
+    RestOfIsland& island = rests[island_of(*model)];
+    if (island.time < kTime) continue;
+    if (island.group == kNoObject) island.group = model->object;
+    put_to_sleep(*model, island.group);
+    any = true;
   }
-  if (!any) return;
-  std::vector<ObjectId> groups(count, kNoObject);
-  for (std::size_t i = 0; i < count; ++i) {
-    PlacedModel& model = *moving[i];
-    const auto island = static_cast<std::size_t>(islands.of(static_cast<int>(i)));
-    if (model.rest.group != kNoObject || least[island] < kTime) continue;
-    if (groups[island] == kNoObject) groups[island] = model.object;
-    put_to_sleep(model, groups[island]);
-  }
+  if (any) sort_by_sleep(moving, substep.spaces, substep.contacts);
 }
 
-void wake(const MovingModels& moving) {
-  for (PlacedModel* model : moving) wake_model(*model);
+void wake(MovingModels& moving, const Spaces& spaces, Contacts& contacts) {
+  const bool any_sleeps = moving.awake.size() < moving.all.size();
+  for (PlacedModel* model : moving.all) wake_model(*model);
+  if (any_sleeps) sort_by_sleep(moving, spaces, contacts);
+}
+
+void sort_by_sleep(MovingModels& moving, const Spaces& spaces, Contacts& contacts) {
+  moving.awake.clear();
+  for (PlacedModel* model : moving.all) {
+    if (model->rest.is_awake()) moving.awake.push_back(model);
+    dSpaceID space = (model->rest.is_awake() ? spaces.movers : spaces.sleepers).get();
+    dGeomID shapes = reinterpret_cast<dGeomID>(model->space.get());
+    if (dGeomGetSpace(shapes) == space) continue;
+    dSpaceRemove(dGeomGetSpace(shapes), shapes);
+    dSpaceAdd(space, shapes);
+  }
+  sort_by_sleep(contacts.memory, contacts.asleep);
 }
 
 void add_rest(Fnv1a& hash, const PlacedModel& model) {

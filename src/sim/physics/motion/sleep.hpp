@@ -8,14 +8,19 @@ namespace bubblesim {
 
 class Fnv1a;
 
-/// Wakes the groups of which a body was enabled by a command or a wrench.
-void wake_commanded(const MovingModels& moving);
+/// Enables a body, because of a command or a wrench.
+void command(MovingModels& moving, dBodyID body);
+/// Wakes the groups of which a body was enabled.
+void wake_commanded(Substep& substep);
 /// Wakes the groups that awake bodies touch; returns whether there were any.
-bool wake_touched(const MovingModels& moving, const FoundContacts& found);
+bool wake_touched(Substep& substep);
 /// Measures rest after a substep, and puts islands to sleep.
 void rest(Substep& substep);
 /// Wakes all models, after one was moved or removed that may support them.
-void wake(const MovingModels& moving);
+void wake(MovingModels& moving, const Spaces& spaces, Contacts& contacts);
+/// Updates the list of the models that are awake, the spaces, and the memories of contacts, after models were added,
+/// went to sleep, or woke up.
+void sort_by_sleep(MovingModels& moving, const Spaces& spaces, Contacts& contacts);
 
 /// Adds what the later sleep of a model depends on.
 void add_rest(Fnv1a& hash, const PlacedModel& model);

@@ -42,6 +42,8 @@ struct Rest {
   bool may_sleep = false;
   double time = 0;             // s
   ObjectId group = kNoObject;  // first model of the group; kNoObject: awake
+
+  bool is_awake() const { return group == kNoObject; }
 };
 
 /// Links, joints and sensors by Object::index. Members are destroyed in reverse order: joints and geoms before bodies.
@@ -50,13 +52,14 @@ struct PlacedModel {
       : object(object_), prepared(std::move(prepared_)), description(*prepared->description) {}
 
   ObjectId object;
+  int number = 0;  // in MovingModels::all
   std::shared_ptr<const PreparedModel> prepared;
   const ModelDescription& description;
   ModelFrame frame;
   std::vector<ModelFrame> nested;   // of the nested models
   std::deque<Link> links;           // a deque, because pointers to its elements are kept
   std::vector<Rotation> rotations;  // of the links with unequal moments of inertia
-  ode::SpaceHandle space;           // its moving geoms, in Spaces::movers; null when it is static
+  ode::SpaceHandle space;           // its moving geoms, in Spaces::movers or sleepers; null when it is static
   std::deque<Collider> colliders;   // likewise
   std::vector<PlacedJoint> joints;
   std::vector<Lever> levers;
@@ -69,7 +72,13 @@ struct PlacedModel {
 };
 
 /// The moving models of a world, in the order in which they were added.
-using MovingModels = std::vector<PlacedModel*>;
+struct MovingModels {
+  std::vector<PlacedModel*> all;
+  std::vector<PlacedModel*> awake;
+  bool is_any_commanded = false;  // a sleeping body was enabled, see command()
+
+  const PlacedModel& at(int number) const { return *all[static_cast<std::size_t>(number)]; }
+};
 
 /// In kg, at present; infinite for a static model.
 double total_mass(const PlacedModel& model);

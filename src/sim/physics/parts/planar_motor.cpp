@@ -39,4 +39,9 @@ std::array<double, 3> PlanarMotor::velocity() const {
           dJointGetAMotorParam(angular_.get(), dParamVel)};
 }
 
+std::array<double, 3> PlanarMotor::most() const {
+  return {dJointGetLMotorParam(linear_.get(), dParamFMax), dJointGetLMotorParam(linear_.get(), dParamFMax2),
+          dJointGetAMotorParam(angular_.get(), dParamFMax)};
+}
+
 }  // namespace bubblesim

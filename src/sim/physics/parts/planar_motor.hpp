@@ -22,6 +22,8 @@ class PlanarMotor {
   /// In world axes: m/s along x and y, of the body's centre of mass, and rad/s about z.
   void set_velocity(const std::array<double, 3>& velocity);
   std::array<double, 3> velocity() const;
+  /// Its greatest forces, N, and torque, N m.
+  std::array<double, 3> most() const;
 
  private:
   ode::JointHandle linear_;

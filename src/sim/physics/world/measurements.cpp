@@ -9,7 +9,7 @@ namespace bubblesim {
 
 void clear_meters(WorldState& state) {
   state.touches.clear();
-  for (PlacedModel* model : state.moving) {
+  for (PlacedModel* model : state.moving.awake) {
     for (auto& [index, meter] : model->motion_meters) meter.clear();
     for (const PlacedJoint& placed : model->joints) {
       if (placed.meter != nullptr) placed.meter->clear();
@@ -35,12 +35,13 @@ std::vector<Contact> WorldMeasurements::contacts(ObjectId link) const {
 
 std::vector<TouchPoint> WorldMeasurements::contact_points() const {
   std::vector<TouchPoint> points;
-  const ContactMemory& memory = state().contacts.memory;
-  for (const RememberedPair& pair : memory.pairs) {
-    for (std::size_t i = pair.begin; i < pair.begin + static_cast<std::size_t>(pair.count); ++i) {
-      const RememberedPoint& point = memory.points[i];
-      points.push_back({pair.first->link->object, pair.second->link->object, point.position, point.direction,
-                        point.normal, point.direction * point.normal + point.friction});
+  for (const ContactMemory* memory : {&state().contacts.memory, &state().contacts.asleep}) {
+    for (const RememberedPair& pair : memory->pairs) {
+      for (std::size_t i = pair.begin; i < pair.begin + static_cast<std::size_t>(pair.count); ++i) {
+        const RememberedPoint& point = memory->points[i];
+        points.push_back({pair.first->link->object, pair.second->link->object, point.position, point.direction,
+                          point.normal, point.direction * point.normal + point.friction});
+      }
     }
   }
   return points;

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <variant>
 
+#include "physics/motion/sleep.hpp"
 #include "physics/world/state.hpp"
 
 namespace bubblesim {
 namespace {
 
-// Static shapes of finite size are in a quadtree, so a moving shape is tested only against those near it. With 6 levels
-// its cells are 1/64 of the scene and take 350 kB.
+// Static shapes of finite size are in a quadtree, and models that sleep in another, so a moving shape is tested only
+// against those near it. With 6 levels its cells are 1/64 of the scene and take 350 kB.
 constexpr int kQuadtreeDepth = 6;
 
 /// Levels for a number of shapes: up to sixteen times as many cells as shapes.
@@ -19,7 +20,7 @@ int quadtree_depth(std::size_t shapes) {
   return depth;
 }
 
-/// Bounding box of the finite static shapes; grows with the shapes.
+/// Bounding box of shapes; grows with them.
 struct Extent {
   Vector3 low{-1, -1, -1};
   Vector3 high{1, 1, 1};
@@ -32,6 +33,33 @@ struct Extent {
   }
 };
 
+dSpaceID make_quadtree(const Extent& extent, std::size_t shapes) {
+  const Vector3 centre = (extent.low + extent.high) / 2;
+  const Vector3 half = (extent.high - extent.low) / 2;
+  const dVector3 ode_centre = {centre.x(), centre.y(), centre.z()};
+  const dVector3 ode_half = {half.x(), half.y(), half.z()};
+  return dQuadTreeSpaceCreate(nullptr, ode_centre, ode_half, quadtree_depth(shapes));
+}
+
+/// Makes the space of sleeping models anew, of the size of where they are now.
+void fit_sleepers(WorldState& state) {
+  Extent extent;
+  std::size_t props = 0;
+  for (const PlacedModel* model : state.moving.all) {
+    dGeomID shapes = reinterpret_cast<dGeomID>(model->space.get());
+    if (!model->rest.is_awake()) {
+      dSpaceRemove(state.spaces.sleepers.get(), shapes);
+      dSpaceAdd(state.spaces.movers.get(), shapes);
+    }
+    if (!model->prepared->is_prop) continue;
+    ++props;
+    extent.include(shapes);
+  }
+  state.spaces.sleepers.reset(props == 0 ? nullptr : make_quadtree(extent, props));
+  // A model that is awake is searched among them as a whole.
+  if (props > 0) dSpaceSetSublevel(state.spaces.sleepers.get(), 1);
+}
+
 }  // namespace
 
 void lower_bottom(WorldState& state) {
@@ -42,15 +70,16 @@ void lower_bottom(WorldState& state) {
 }
 
 void list_moving(WorldState& state) {
-  state.moving.clear();
+  MovingModels& moving = state.moving;
+  moving.all.clear();
   int link_number = 0;
   for (const auto& model : state.models) {
     const bool moves = model->space != nullptr;
-    const int number = moves ? static_cast<int>(state.moving.size()) : Collider::kNoModel;
-    if (moves) state.moving.push_back(model.get());
+    model->number = moves ? static_cast<int>(moving.all.size()) : Collider::kNoModel;
+    if (moves) moving.all.push_back(model.get());
     const double mass = total_mass(*model);
     for (Collider& collider : model->colliders) {
-      collider.model = number;
+      collider.model = model->number;
       collider.model_mass = mass;
     }
     for (Link& link : model->links) link.number = link_number += moves ? 1 : 0;
@@ -66,7 +95,11 @@ void list_moving(WorldState& state) {
       }
     }
   }
+  fit_sleepers(state);
+  sort_by_sleep(moving, state.spaces, state.contacts);
 }
+
+void wake_all(WorldState& state) { wake(state.moving, state.spaces, state.contacts); }
 
 void gather_statics(WorldState& state) {
   Extent extent;
@@ -80,11 +113,7 @@ void gather_statics(WorldState& state) {
       extent.include(geom);
     }
   }
-  const Vector3 centre = (extent.low + extent.high) / 2;
-  const Vector3 half = (extent.high - extent.low) / 2;
-  const dVector3 ode_centre = {centre.x(), centre.y(), centre.z()};
-  const dVector3 ode_half = {half.x(), half.y(), half.z()};
-  state.spaces.statics.reset(dQuadTreeSpaceCreate(nullptr, ode_centre, ode_half, quadtree_depth(geoms.size())));
+  state.spaces.statics.reset(make_quadtree(extent, geoms.size()));
   for (dGeomID geom : geoms) dSpaceAdd(state.spaces.statics.get(), geom);
   state.statics_stale = false;
 }

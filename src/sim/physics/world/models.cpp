@@ -17,8 +17,10 @@
 namespace bubblesim {
 
 void forget_contacts(WorldState& state, ObjectId model) {
-  forget_contacts(state.contacts.memory,
-                  [&](const Collider& shape) { return state.tree().outermost_model_of(shape.link->object) == model; });
+  const auto belongs = [&](const Collider& shape) {
+    return state.tree().outermost_model_of(shape.link->object) == model;
+  };
+  for (ContactMemory* memory : {&state.contacts.memory, &state.contacts.asleep}) forget_contacts(*memory, belongs);
 }
 
 ObjectId WorldModels::add(ModelDescription model, std::vector<Problem>* warnings) {
@@ -99,7 +101,7 @@ void WorldModels::remove(ObjectId model) {
   lost.erase(std::remove(lost.begin(), lost.end(), model), lost.end());
   if (lost.empty()) state().diverged = state().interrupted;
   list_moving(state());
-  wake(state().moving);
+  wake_all(state());
   ++state().revision;
   state().has_scene_models = false;
 }

@@ -189,7 +189,7 @@ void move(WorldState& state, const Movers& moving, const Pose& before, const Pos
     state.model_of(id).sensors[sensor.index] = normalized(link_pose(state.link(sensor.carrier)).inverse() * moved);
   }
   if (moving.links.empty()) return;
-  wake(state.moving);
+  wake_all(state);
   std::set<ObjectId> models;
   for (const ObjectId id : moving.links) models.insert(state.tree().outermost_model_of(id));
   for (const ObjectId model : models) forget_contacts(state, model);
@@ -270,7 +270,7 @@ void World::set_velocity(ObjectId object, const Twist& velocity) {
   for (const ObjectId link : links) {
     dBodyID body = state_->link(link).body.get();
     if (body == nullptr) continue;
-    dBodyEnable(body);
+    command(state_->moving, body);
     const Vector3 linear = velocity.linear + velocity.angular.cross(to_vector(dBodyGetPosition(body)) - origin);
     dBodySetLinearVel(body, linear.x(), linear.y(), linear.z());
     dBodySetAngularVel(body, velocity.angular.x(), velocity.angular.y(), velocity.angular.z());
@@ -293,7 +293,7 @@ void World::set_planar_velocity(ObjectId model, double x, double y, double turni
   // ODE's motor moves the centre of mass, which moves in a circle around the model's origin.
   const Vector3 arm = to_vector(dBodyGetPosition(body)) - pose(model).position;
   placed.planar_motor.set_velocity({x - turning * arm.y(), y + turning * arm.x(), turning});
-  dBodyEnable(body);
+  command(state_->moving, body);
 }
 
 void World::set_state(ObjectId object, const Pose& pose, const Twist& velocity) {

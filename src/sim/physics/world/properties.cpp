@@ -55,7 +55,7 @@ void apply_friction(Collider& collider, double mu) {
 void apply_gravity(WorldState& state, const Vector3& gravity) {
   state.gravity = gravity;
   dWorldSetGravity(state.ode.id(), gravity.x(), gravity.y(), gravity.z());
-  for (PlacedModel* model : state.moving) {
+  for (PlacedModel* model : state.moving.all) {
     model->rest.may_sleep = model->prepared->is_prop && gravity != Vector3::Zero();
   }
 }
@@ -97,9 +97,9 @@ void WorldProperties::set_gravity(const Vector3& gravity) {
     throw InvalidInput("the gravity " + text(gravity) + " is not usable: it must be finite and at most 1e4 m/s^2");
   }
   const Vector3 before = state().gravity.normalized();
-  wake(state().moving);
+  wake_all(state());
   apply_gravity(state(), gravity);
-  for (PlacedModel* model : state().moving) {
+  for (PlacedModel* model : state().moving.all) {
     for (Link& link : model->links) link.rest_pose = body_pose(link.body.get());
   }
   if (gravity.normalized().dot(before) > 1 - 1e-9) return;
@@ -130,7 +130,7 @@ void WorldProperties::set_mass(ObjectId object, double mass) {
   for (const ObjectId id : links) {
     Link& link = model.links[state().tree().at(id).index];
     apply_mass(model, link, links.size() == 1 ? mass : link.mass * (mass / before));
-    dBodyEnable(link.body.get());
+    command(state().moving, link.body.get());
   }
 }
 
@@ -149,9 +149,9 @@ void WorldProperties::set_friction(ObjectId object, double mu) {
   with_colliders(state(), object, [&](Collider& collider) {
     apply_friction(collider, mu);
     dBodyID body = collider.link->body.get();
-    if (body != nullptr) dBodyEnable(body);
+    if (body != nullptr) command(state().moving, body);
   });
-  if (state().model_of(object).description.is_static) wake(state().moving);
+  if (state().model_of(object).description.is_static) wake_all(state());
 }
 
 }  // namespace bubblesim

@@ -8,6 +8,7 @@
 
 #include "bubblesim/device.hpp"
 #include "bubblesim/error.hpp"
+#include "physics/motion/sleep.hpp"
 #include "physics/ode/body_state.hpp"
 #include "physics/world/state.hpp"
 #include "scene/fnv1a.hpp"
@@ -116,7 +117,7 @@ void transfer_physics(StateArchive& archive, WorldState& state) {
     state.lost_models.clear();
     state.diverged = true;  // until all of it is restored
   }
-  archive.require(state.moving.size(), "number of moving models");
+  archive.require(state.moving.all.size(), "number of moving models");
   archive.require(state.colliders.size(), "number of collision shapes");
   Vector3 gravity = state.gravity;
   archive(gravity);
@@ -124,14 +125,17 @@ void transfer_physics(StateArchive& archive, WorldState& state) {
     if (!within(gravity, kMaxGravity)) throw InvalidInput("the saved state has a gravity that is not usable");
     apply_gravity(state, gravity);
   }
-  for (PlacedModel* model : state.moving) transfer_model(archive, state, *model);
+  for (PlacedModel* model : state.moving.all) transfer_model(archive, state, *model);
   transfer_frictions(archive, state);
   transfer_places(archive, state);
   transfer_frames(archive, state);
   transfer_memory(archive, state, state.contacts.memory);
+  transfer_memory(archive, state, state.contacts.asleep);
   transfer_touches(archive, state);
   archive(state.wrenches, state.last_duration, state.touches.substeps, state.bottom, state.age);
-  if (archive.restores()) state.diverged = false;
+  if (!archive.restores()) return;
+  sort_by_sleep(state.moving, state.spaces, state.contacts);
+  state.diverged = false;
 }
 
 void World::transfer_layout(StateArchive& archive, const std::vector<ObjectId>& models) const {

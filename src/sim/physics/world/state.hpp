@@ -177,10 +177,12 @@ void add_frames(Fnv1a& hash, const WorldState& state);
 
 /// Builds a model whose objects are in the tree already. gather_statics() completes it when it is static.
 void place_model(WorldState& state, ObjectId id, std::shared_ptr<const PreparedModel> model);
-/// Updates the list of moving models and their indices, after models were added or removed.
+/// Updates the lists of moving models and their numbers, after models were added or removed.
 void list_moving(WorldState& state);
 /// Rebuilds the space of the static shapes with a fitting size.
 void gather_statics(WorldState& state);
+/// Wakes all models, after one was moved or removed that may support them.
+void wake_all(WorldState& state);
 /// Drops the remembered contacts of an outermost model that was moved or will be removed.
 void forget_contacts(WorldState& state, ObjectId model);
 /// Updates the lowest initial position by the present poses.
@@ -203,7 +205,7 @@ void reset_devices(World& world, std::vector<DeviceSlot> devices, WorldState& st
 void remove_devices(WorldState& state, ObjectId model);
 
 /// Passes forces and torques to ODE, which applies them in the next substep only.
-void push_links(const WorldState& state, const Wrenches& wrenches);
+void push_links(WorldState& state, const Wrenches& wrenches);
 /// Removes the wrenches of links that do not exist any more.
 void forget_wrenches(WorldState& state);
 

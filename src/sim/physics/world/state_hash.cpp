@@ -68,6 +68,7 @@ std::uint64_t World::state_hash() const {
     }
   }
   state_->contacts.memory.add_to(hash);
+  state_->contacts.asleep.add_to(hash);
   add_wrenches(hash, state_->wrenches);
   for (const DeviceSlot& slot : state_->devices) add_scheduled(hash, slot);
   add_frames(hash, *state_);

@@ -73,7 +73,7 @@ void carry_statics(WorldState& state) {
     const Pose pose = link_pose(state.link(link.carrier)) * link.in_carrier;
     if (equal(pose, link.pose)) continue;
     constexpr double kNoticed = 1e-6;  // m
-    if ((pose.position - link.pose.position).norm() > kNoticed) wake(state.moving);
+    if ((pose.position - link.pose.position).norm() > kNoticed) wake_all(state);
     place_static(state, id, pose);
   }
 }

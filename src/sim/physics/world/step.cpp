@@ -30,7 +30,7 @@ bool is_finite(dBodyID body) {
 
 void check_bodies(WorldState& state) {
   const Link* first = nullptr;
-  for (const PlacedModel* model : state.moving) {
+  for (const PlacedModel* model : state.moving.awake) {
     for (const Link& link : model->links) {
       if (is_finite(link.body.get())) continue;
       if (first == nullptr) first = &link;
@@ -51,13 +51,13 @@ void check_bodies(WorldState& state) {
 /// Searches contacts, and wakes what awake bodies touch.
 void find_contacts(Substep& substep) {
   search_contacts(substep);
-  while (wake_touched(substep.moving, substep.contacts.found)) search_contacts(substep);
+  while (wake_touched(substep)) search_contacts(substep);
   order_contacts(substep.contacts);
   if (substep.solver == Solver::kBubblesim) TreeSolver::choose(substep);
 }
 
 void drive_joints(const MovingModels& moving, double step) {
-  for (const PlacedModel* model : moving) {
+  for (const PlacedModel* model : moving.awake) {
     for (const PlacedJoint& placed : model->joints) {
       if (placed.joint) placed.joint->drive(step);
       for (std::size_t axis = 0; axis < placed.motor_meters.size(); ++axis) {
@@ -70,9 +70,9 @@ void drive_joints(const MovingModels& moving, double step) {
 template <class Do>
 void for_each_rotation(Substep& substep, const Do& act) {
   Islands& islands = substep.contacts.islands;
-  for (std::size_t i = 0; i < substep.moving.size(); ++i) {
-    if (islands.is_by_trees(islands.of(static_cast<int>(i)))) continue;
-    for (Rotation& rotation : substep.moving[i]->rotations) act(rotation);
+  for (PlacedModel* model : substep.moving.awake) {
+    if (islands.is_by_trees(islands.of(model->number))) continue;
+    for (Rotation& rotation : model->rotations) act(rotation);
   }
 }
 
@@ -86,7 +86,7 @@ void end_rotations(Substep& substep) {
 }
 
 void begin_meters(const MovingModels& moving) {
-  for (PlacedModel* model : moving) {
+  for (PlacedModel* model : moving.awake) {
     for (auto& [index, meter] : model->motion_meters) meter.begin();
     for (const PlacedJoint& placed : model->joints) {
       if (placed.meter != nullptr) placed.meter->begin();
@@ -96,12 +96,11 @@ void begin_meters(const MovingModels& moving) {
 
 void end_meters(Substep& substep) {
   Islands& islands = substep.contacts.islands;
-  for (std::size_t i = 0; i < substep.moving.size(); ++i) {
-    PlacedModel& model = *substep.moving[i];
-    const bool is_by_trees = islands.is_by_trees(islands.of(static_cast<int>(i)));
+  for (PlacedModel* model : substep.moving.awake) {
+    const bool is_by_trees = islands.is_by_trees(islands.of(model->number));
     const ForcePlace place = is_by_trees ? ForcePlace::kOnTheWay : ForcePlace::kStart;
-    for (auto& [index, meter] : model.motion_meters) meter.end(substep.duration, substep.gravity, place);
-    for (const PlacedJoint& placed : model.joints) {
+    for (auto& [index, meter] : model->motion_meters) meter.end(substep.duration, substep.gravity, place);
+    for (const PlacedJoint& placed : model->joints) {
       if (placed.meter != nullptr) placed.meter->end(substep.duration);
       for (std::size_t axis = 0; axis < placed.motor_meters.size(); ++axis) {
         if (placed.joint->is_driven(static_cast<int>(axis))) placed.motor_meters[axis]->gather(substep.duration);
@@ -111,12 +110,12 @@ void end_meters(Substep& substep) {
 }
 
 void simulate(WorldState& state, const Wrenches& wrenches, double step) {
-  const MovingModels& moving = state.moving;
+  MovingModels& moving = state.moving;
   Substep substep{step, state.gravity, moving, state.spaces, state.ode, state.contacts, state.solver};
   try {
     push_links(state, wrenches);
     for (const DeviceSlot& slot : state.devices) push_links(state, slot.wrenches);
-    wake_commanded(moving);
+    wake_commanded(substep);
     find_contacts(substep);
     drive_joints(moving, step);
     begin_meters(moving);
@@ -139,10 +138,10 @@ void simulate(WorldState& state, const Wrenches& wrenches, double step) {
   check_bodies(state);
 }
 
-/// Records the current states, for the report of a divergence.
+/// Records the current states of the models that are awake, for the report of a divergence.
 void remember(WorldState& state, double duration) {
   std::vector<LinkState> now;
-  for (PlacedModel* model : state.moving) {
+  for (PlacedModel* model : state.moving.awake) {
     for (Link& link : model->links) {
       link.before = body_velocity(link.body.get());
       now.push_back({link.object, body_pose(link.body.get()), link.before});

@@ -67,10 +67,10 @@ void WorldWrenches::clear(ObjectId object, bool force, bool torque) {
   if (force && torque) wrenches.erase(found);
 }
 
-void push_links(const WorldState& state, const Wrenches& wrenches) {
+void push_links(WorldState& state, const Wrenches& wrenches) {
   for (const auto& [link, wrench] : wrenches) {
     dBodyID body = state.link(link).body.get();
-    dBodyEnable(body);
+    command(state.moving, body);
     dBodyAddForce(body, wrench.force.x(), wrench.force.y(), wrench.force.z());
     dBodyAddTorque(body, wrench.torque.x(), wrench.torque.y(), wrench.torque.z());
   }

@@ -3,6 +3,11 @@
 #include <gtest/gtest.h>
 #include <ode/ode.h>
 
+#include <string>
+#include <string_view>
+
+#include "bubblesim/state_archive.hpp"
+#include "bubblesim/world_measurements.hpp"
 #include "scenes.hpp"
 
 namespace bubblesim::test::test_resting {
@@ -101,6 +106,68 @@ TEST(Sleep, EndsByACommand) {
   sleeper.world.set_velocity(sleeper.top, {{0, 0, 2}, {}});
   sleeper.world.advance(0.1, kStep);
   EXPECT_GT(sleeper.world.pose(sleeper.top).position.z(), 0.8);
+}
+
+/// A bat on a motor, which never sleeps, beside a tower of two boxes that sleep.
+SceneDescription bat_and_tower() {
+  ModelDescription bat = model("Bat", link("base"), at(-1.5, 0, 0.75));
+  bat.links.push_back(link("arm", {0.5, 0, 0}));
+  bat.links[1].collisions.push_back(shape(Box{{1, 0.1, 0.1}}));
+  bat.joints = {joint("fixed", {}, {}, "world", "base"),
+                joint("revolute", {axis(Vector3::UnitZ(), MotorMode::kVelocity)}, {-0.5, 0, 0}, "base", "arm")};
+  bat.joints[1].name = "motor";
+  bat.joints[1].axes[0].max_force = 100;
+  return scene({floor(), box("Base", {-0.8, 0.6, 0.25}), box("Top", {-0.8, 0.6, 0.75}), bat});
+}
+
+void swing(World& world) { world.joints().set_target_velocity(world.tree().find("/motor"), 3); }
+
+TEST(Sleep, EndsWhenAModelThatStayedAwakeTouchesIt) {
+  World world(bat_and_tower(), 0);
+  world.advance(3, kStep);
+  swing(world);
+  world.advance(1, kStep);
+  EXPECT_GT((world.pose(world.tree().find("/Top")).position - Vector3(-0.8, 0.6, 0.75)).norm(), 0.05);
+}
+
+TEST(Sleep, ContinuesFromASavedStateBitByBit) {
+  World world(bat_and_tower(), 0);
+  world.advance(3, kStep);
+  std::string saved;
+  StateArchive save(saved);
+  world.transfer(save);
+  World other(bat_and_tower(), 0);
+  StateArchive restore{std::string_view(saved)};
+  other.transfer(restore);
+  for (World* each : {&world, &other}) {
+    swing(*each);
+    each->advance(1, kStep);
+  }
+  EXPECT_EQ(other.state_hash(), world.state_hash());
+}
+
+TEST(Sleep, KeepsItsContactsListed) {
+  Sleeper sleeper;
+  double load = 0;
+  for (const TouchPoint& point : sleeper.world.measurements().contact_points()) {
+    if (point.second == sleeper.world.tree().find("/Floor/link")) load += point.force.z();
+  }
+  EXPECT_NEAR(load, 3 * 9.81, 1e-3);
+}
+
+TEST(Sleep, BearsAModelThatIsAdded) {
+  Sleeper sleeper;
+  sleeper.world.models().add(box("Third", {0, 0, 1.3}));
+  sleeper.world.advance(1, kStep);
+  EXPECT_NEAR(sleeper.world.pose(sleeper.world.tree().find("/Third")).position.z(), 1.25, 0.01);
+}
+
+TEST(Sleep, HasNoAccelerationFromTheFirstSubstepOn) {
+  World world(scene({floor(), box("Box", {0, 0, 0.2501})}), 0);
+  const ObjectId id = world.tree().find("/Box");
+  for (int i = 0; i < 40; ++i) world.advance(0.05, kStep);
+  EXPECT_EQ(world.velocity(id).linear, Vector3::Zero());
+  EXPECT_EQ(world.acceleration(id), Vector3::Zero());
 }
 
 TEST(Sleep, IsNotForModelsWithJoints) {

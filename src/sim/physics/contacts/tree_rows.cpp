@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The rows of a model's joints: motors, friction, dampers, stops, closed loops, gearboxes.
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "physics/contacts/tree_model.hpp"
+#include "physics/ode/constraint_defaults.hpp"
+#include "physics/ode/ode_math.hpp"
+
+namespace bubblesim {
+namespace {
+
+constexpr double kReachOfStop = 1000;  // rad/s^2 or m/s^2, with which an axis may reach a stop in a substep
+
+}  // namespace
+
+void TreeModel::add_rows(ConstraintRows& rows, double step) {
+  motors_.clear();
+  for (const std::size_t joint : loops_) close_loop(joint, rows, step);
+  for (const std::size_t gearbox : gearboxes_) couple(gearbox, rows, step);
+  for (const Axis& axis : axes_) add_axis_rows(axis, rows, step);
+  if (model_.planar_motor.exists()) add_planar_motor(rows, step);
+}
+
+int TreeModel::add_axis_row(const Axis& axis, ConstraintRows& rows) {
+  if (axis.dof >= 0) return rows.add_dof(tree_, axis.dof);
+  const PlacedJoint& joint = model_.joints[axis.joint];
+  const JointDescription& description = model_.description.joints[axis.joint];
+  const Pose frame = link_pose(link_of(joint.child)) * joint.in_child;
+  const Vector3 direction = frame.orientation * description.axes[0].direction;
+  if (description.type == "prismatic") {
+    return rows.add_force(body_of(joint.child), body_of(joint.parent), frame.position, direction);
+  }
+  return rows.add_torque(body_of(joint.child), body_of(joint.parent), direction);
+}
+
+void TreeModel::add_axis_rows(const Axis& axis, ConstraintRows& rows, double step) {
+  const PlacedJoint& joint = model_.joints[axis.joint];
+  const AxisForces& forces = axis.forces;
+  const auto hold = [&](const MotorForce& force) {
+    const int row = add_axis_row(axis, rows);
+    rows.set(row, force.velocity, kConstraintSoftness / step, 0);
+    ConeBlock block;
+    block.row = row;
+    block.upper = force.max_force * step;
+    block.lower = -block.upper;
+    rows.bound(block);
+    return row;
+  };
+  if (forces.motor && forces.motor->max_force > 0) {
+    const int row = hold(*forces.motor);
+    MotorMeter* meter = joint.motor_meters[static_cast<std::size_t>(axis.number)].get();
+    if (meter != nullptr) motors_.push_back({meter, row});
+  }
+  if (forces.friction) hold(*forces.friction);
+  if (axis.dof < 0 && forces.damper && forces.damper->softness > 0) {
+    const int row = add_axis_row(axis, rows);
+    rows.set(row, forces.damper->velocity, forces.damper->softness / step, 0);
+    ConeBlock block;
+    block.row = row;
+    rows.bound(block);
+  }
+  add_stops(axis, rows, step);
+}
+
+void TreeModel::add_stops(const Axis& axis, ConstraintRows& rows, double step) {
+  const Joint& joint = *model_.joints[axis.joint].joint;
+  const AxisDescription& limits = joint.axis(axis.number);
+  if (!std::isfinite(limits.lower) && !std::isfinite(limits.upper)) return;
+  const double here = joint.position(axis.number);
+  const double speed = joint.velocity(axis.number);
+  const double reach = step * (2 * std::abs(speed) + step * kReachOfStop);
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto stop = [&](double gap, double lower, double upper) {
+    const int row = add_axis_row(axis, rows);
+    const bool beyond = lower == 0 ? gap > 0 : gap < 0;
+    rows.set(row, (beyond ? kErrorReduction : 1) * gap / step, kConstraintSoftness / step, 0);
+    ConeBlock block;
+    block.row = row;
+    block.lower = lower;
+    block.upper = upper;
+    rows.bound(block);
+  };
+  if (limits.lower == limits.upper) return stop(limits.lower - here, -infinity, infinity);
+  if (here - limits.lower < reach) stop(limits.lower - here, 0, infinity);
+  if (limits.upper - here < reach) stop(limits.upper - here, -infinity, 0);
+}
+
+void TreeModel::close_loop(std::size_t number, ConstraintRows& rows, double step) {
+  const PlacedJoint& joint = model_.joints[number];
+  const JointDescription& description = model_.description.joints[number];
+  const TreeMotion motion = motion_of(description.type);
+  const Pose child = link_pose(link_of(joint.child)) * joint.in_child;
+  const Pose parent = joint.parent == kNoObject ? joint.in_parent : link_pose(link_of(joint.parent)) * joint.in_parent;
+  const TreeBody first = body_of(joint.child);
+  const TreeBody second = body_of(joint.parent);
+  const Vector3 axis = description.axes.empty() ? Vector3(Vector3::UnitX())
+                                                : Vector3(parent.orientation * description.axes[0].direction);
+  const Vector3 across = axis.unitOrthogonal();
+  const std::array<Vector3, 3> directions = {axis, across, axis.cross(across)};
+  const Vector3 apart = child.position - parent.position;
+  const Quaternion turn = child.orientation * parent.orientation.conjugate();
+  const Vector3 turned = Vector3(turn.vec()) * (turn.w() < 0 ? -2 : 2);  // rad, while it is small
+  const Vector3 tilt =
+      description.axes.empty() ? Vector3() : axis.cross(child.orientation * description.axes[0].direction);
+  const auto hold = [&](int row, double error) {
+    rows.set(row, -kErrorReduction * error / step, kConstraintSoftness / step, 0);
+    ConeBlock block;
+    block.row = row;
+    rows.bound(block);
+  };
+  for (std::size_t i = motion == TreeMotion::kSlides ? 1 : 0; i < 3; ++i) {
+    hold(rows.add_force(first, second, child.position, directions[i]), directions[i].dot(apart));
+  }
+  if (motion == TreeMotion::kBall) return;
+  for (std::size_t i = motion == TreeMotion::kTurns ? 1 : 0; i < 3; ++i) {
+    const Vector3& error = motion == TreeMotion::kTurns ? tilt : turned;
+    hold(rows.add_torque(first, second, directions[i]), directions[i].dot(error));
+  }
+}
+
+void TreeModel::couple(std::size_t number, ConstraintRows& rows, double step) {
+  const PlacedJoint& gearbox = model_.joints[number];
+  const ShaftCoupling shafts = *gearbox.joint->coupling();
+  const TreeBody reference = body_named(model_.description.joints[number].gearbox_reference);
+  const int row = rows.add_torque(body_of(gearbox.child), reference, shafts.child_axis);
+  rows.add_torque_to_last(body_of(gearbox.parent), reference, shafts.parent_axis * shafts.ratio);
+  const double error = gearbox.joint->position(1) + shafts.ratio * gearbox.joint->position(0);
+  rows.set(row, -kErrorReduction * error / step, kConstraintSoftness / step, 0);
+  ConeBlock block;
+  block.row = row;
+  rows.bound(block);
+}
+
+void TreeModel::add_planar_motor(ConstraintRows& rows, double step) {
+  const ObjectId link = model_.frame.canonical_link;
+  const TreeBody body = body_of(link);
+  const Vector3 centre = to_vector(dBodyGetPosition(link_of(link).body.get()));
+  const std::array<double, 3> velocity = model_.planar_motor.velocity();
+  const std::array<double, 3> most = model_.planar_motor.most();
+  const auto hold = [&](int row, std::size_t i) {
+    rows.set(row, velocity[i], kConstraintSoftness / step, 0);
+    ConeBlock block;
+    block.row = row;
+    block.upper = most[i] * step;
+    block.lower = -block.upper;
+    rows.bound(block);
+  };
+  hold(rows.add_force(body, {}, centre, Vector3::UnitX()), 0);
+  hold(rows.add_force(body, {}, centre, Vector3::UnitY()), 1);
+  hold(rows.add_torque(body, {}, Vector3::UnitZ()), 2);
+}
+
+}  // namespace bubblesim
