@@ -18,7 +18,7 @@ using namespace bubblesim::ttt;
 using namespace ttt_writer;
 using Data = std::map<std::string, std::string>;
 
-Object read(const ObjectText& object) { return read_scene_file(file({object})).objects.at(0); }
+ttt::Object read(const ObjectText& object) { return read_scene_file(file({object})).objects.at(0); }
 
 /// A block of old custom data: its size, that of the name with its zero byte, the name, the data.
 std::string block(const std::string& name, const std::string& data) {
@@ -36,7 +36,8 @@ ObjectText with_old_data(std::int32_t number, const std::string& content) {
 constexpr std::int32_t kByName = 356248756;
 
 TEST(TttCustomData, OfFilesBeforeV44IsFoundByName) {
-  const Object object = read(with_old_data(kByName, block("PATH", "points") + block("empty", "") + block("x", "y")));
+  const ttt::Object object =
+      read(with_old_data(kByName, block("PATH", "points") + block("empty", "") + block("x", "y")));
   EXPECT_EQ(object.data, (Data{{"PATH", "points"}, {"empty", ""}, {"x", "y"}}));
 }
 
@@ -74,7 +75,7 @@ ObjectText path(const std::string& points, int attributes) {
 }
 
 TEST(TttOldPath, IsACurveThatRoundsItsCorners) {
-  const Object object = read(path(point(0, 0, 3) + point(2, 0, 3) + point(2, 2, 3), 0));
+  const ttt::Object object = read(path(point(0, 0, 3) + point(2, 0, 3) + point(2, 2, 3), 0));
   const Data data = data_of(*object.as<Path>());
   EXPECT_EQ(poses_in(data.at("PATHCTRLPTS")).size(), 3U);
   const auto poses = poses_in(data.at("PATH"));
@@ -89,7 +90,7 @@ TEST(TttOldPath, IsACurveThatRoundsItsCorners) {
 
 TEST(TttOldPath, EndsWhereItBeginsIfItIsClosed) {
   constexpr int kClosed = 4;
-  const Object object = read(path(point(0, 0, 1) + point(2, 0, 1) + point(2, 2, 1), kClosed));
+  const ttt::Object object = read(path(point(0, 0, 1) + point(2, 0, 1) + point(2, 2, 1), kClosed));
   const auto poses = poses_in(data_of(*object.as<Path>()).at("PATH"));
   ASSERT_EQ(poses.size(), 4U);
   EXPECT_EQ(poses[0], poses[3]);
