@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from bubblesim.scripting.api.sim.more_constants import MoreConstants
 from bubblesim.scripting.api.sim.parameter_constants import ParameterConstants
+from bubblesim.scripting.api.sim.version_constants import VersionConstants
 
 
-class SimConstants(MoreConstants, ParameterConstants):
+class SimConstants(VersionConstants, ParameterConstants):
     """Base class of the `sim` module."""
 
     handle_world = -1

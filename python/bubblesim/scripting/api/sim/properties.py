@@ -17,134 +17,16 @@ from bubblesim.scripting.api.kinds import (
     Vector4,
     Vector7,
 )
-from bubblesim.scripting.api.sim import more_properties
 from bubblesim.scripting.api.sim.constants import SimConstants as Sim
 from bubblesim.scripting.api.sim.custom_data import CustomDataFunctions
-from bubblesim.scripting.api.sim.more_properties import OF_APP, Property, int_parameter, type_name, type_of
+from bubblesim.scripting.api.sim.object_properties import OF_OBJECTS
+from bubblesim.scripting.api.sim.property_kinds import Property, type_name, type_of
 from bubblesim.scripting.api.sim.scene_objects import SceneObject
+from bubblesim.scripting.api.sim.scene_properties import OF_APP, OF_SCENE
 from bubblesim.scripting.api.sim.signals import require_type
 
 _NUMBERS = (int, float)
-
-
-_JOINT, _SHAPE, _CAMERA = (Sim.object_joint_type,), (Sim.object_shape_type,), (Sim.object_visionsensor_type,)
-_PARENT, _WORLD = Sim.handle_parent, Sim.handle_world
-_TYPE_NAMES = {
-    Sim.object_shape_type: "shape",
-    Sim.object_joint_type: "joint",
-    Sim.object_graph_type: "graph",
-    Sim.object_camera_type: "camera",
-    Sim.object_dummy_type: "dummy",
-    Sim.object_proximitysensor_type: "proximitySensor",
-    Sim.object_visionsensor_type: "visionSensor",
-    Sim.object_forcesensor_type: "forceSensor",
-    Sim.object_light_type: "light",
-    Sim.object_script_type: "script",
-}
-
-
-def _above(sim: Any, handle: int) -> int:
-    parent: int = sim.getObjectParent(handle)
-    return parent
-
-
-def _children(sim: Any, handle: int) -> list[int]:
-    found: list[int] = sim.getObjectsInTree(handle, sim.handle_all, 3)
-    return found
-
-
-OF_OBJECTS: dict[str, Property] = {
-    "alias": Property(lambda sim, h: sim.getObjectAlias(h), lambda sim, h, v: sim.setObjectAlias(h, v)),
-    "handle": Property(lambda sim, h: h),
-    "objectType": Property(lambda sim, h: _TYPE_NAMES[sim.getObjectType(h)]),
-    "parent": Property(_above, lambda sim, h, v: sim.setObjectParent(h, v, True), leads_to_objects=True),
-    "parentHandle": Property(_above, lambda sim, h, v: sim.setObjectParent(h, v, True)),
-    "children": Property(_children, leads_to_objects=True),
-    "modelBase": Property(lambda sim, h: sim.getModelProperty(h) != sim.modelproperty_not_model),
-    "selected": Property(lambda sim, h: h in sim.getObjectSel()),
-    "pose": Property(
-        lambda sim, h: sim.getObjectPose(h, _above(sim, h)), lambda sim, h, v: sim.setObjectPose(h, v, _above(sim, h))
-    ),
-    "position": Property(
-        lambda sim, h: sim.getObjectPosition(h, _above(sim, h)),
-        lambda sim, h, v: sim.setObjectPosition(h, v, _above(sim, h)),
-    ),
-    "quaternion": Property(
-        lambda sim, h: sim.getObjectQuaternion(h, _above(sim, h)),
-        lambda sim, h, v: sim.setObjectQuaternion(h, v, _above(sim, h)),
-    ),
-    "eulerAngles": Property(
-        lambda sim, h: sim.getObjectOrientation(h, _above(sim, h)),
-        lambda sim, h, v: sim.setObjectOrientation(h, v, _above(sim, h)),
-    ),
-    "absPose": Property(lambda sim, h: sim.getObjectPose(h), lambda sim, h, v: sim.setObjectPose(h, v, _WORLD)),
-    "absPosition": Property(
-        lambda sim, h: sim.getObjectPosition(h), lambda sim, h, v: sim.setObjectPosition(h, v, _WORLD)
-    ),
-    "absQuaternion": Property(
-        lambda sim, h: sim.getObjectQuaternion(h), lambda sim, h, v: sim.setObjectQuaternion(h, v, _WORLD)
-    ),
-    "absEulerAngles": Property(
-        lambda sim, h: sim.getObjectOrientation(h), lambda sim, h, v: sim.setObjectOrientation(h, v, _WORLD)
-    ),
-    "calcLinearVelocity": Property(lambda sim, h: sim.getObjectVelocity(h)[0]),
-    "bbHSize": Property(lambda sim, h: [size / 2 for size in sim.getShapeBB(h)], types=_SHAPE),
-    "mass": Property(lambda sim, h: sim.getShapeMass(h), lambda sim, h, v: sim.setShapeMass(h, v), _SHAPE),
-    "dynamic": Property(
-        lambda sim, h: not sim.getObjectInt32Param(h, sim.shapeintparam_static),
-        lambda sim, h, v: sim.setObjectInt32Param(h, sim.shapeintparam_static, int(not v)),
-        _SHAPE,
-    ),
-    "respondable": Property(
-        lambda sim, h: bool(sim.getObjectInt32Param(h, sim.shapeintparam_respondable)),
-        lambda sim, h, v: sim.setObjectInt32Param(h, sim.shapeintparam_respondable, int(bool(v))),
-        _SHAPE,
-    ),
-    "dynLinearVelocity": Property(lambda sim, h: sim.getObjectVelocity(h)[0], types=_SHAPE),
-    "dynAngularVelocity": Property(lambda sim, h: sim.getObjectVelocity(h)[1], types=_SHAPE),
-    "color.diffuse": Property(
-        lambda sim, h: sim.getObjectColor(h, 0, sim.colorcomponent_ambient_diffuse),
-        lambda sim, h, v: sim.setObjectColor(h, 0, sim.colorcomponent_ambient_diffuse, v),
-    ),
-    "jointType": Property(lambda sim, h: sim.getJointType(h), types=_JOINT),
-    "jointMode": Property(
-        lambda sim, h: sim.getJointMode(h)[0], lambda sim, h, v: sim.setJointMode(h, v), types=_JOINT
-    ),
-    "dynCtrlMode": int_parameter(Sim.jointintparam_dynctrlmode, _JOINT),
-    "cyclic": Property(lambda sim, h: sim.getJointInterval(h)[0], types=_JOINT),
-    "interval": Property(lambda sim, h: sim.getJointInterval(h)[1], types=_JOINT),
-    "jointPosition": Property(
-        lambda sim, h: sim.getJointPosition(h), lambda sim, h, v: sim.setJointPosition(h, v), _JOINT
-    ),
-    "jointVelocity": Property(lambda sim, h: sim.getJointVelocity(h), types=_JOINT),
-    "jointForce": Property(lambda sim, h: sim.getJointForce(h), types=_JOINT),
-    "targetPosition": Property(
-        lambda sim, h: sim.getJointTargetPosition(h), lambda sim, h, v: sim.setJointTargetPosition(h, v), _JOINT
-    ),
-    "targetVelocity": Property(
-        lambda sim, h: sim.getJointTargetVelocity(h), lambda sim, h, v: sim.setJointTargetVelocity(h, v), _JOINT
-    ),
-    "targetForce": Property(
-        lambda sim, h: sim.getJointTargetForce(h), lambda sim, h, v: sim.setJointTargetForce(h, v), _JOINT
-    ),
-    "resolution": Property(lambda sim, h: list(sim.getVisionSensorRes(h)), types=_CAMERA),
-}
-OF_OBJECTS |= more_properties.OF_OBJECTS
-OF_OBJECTS |= {  # names of 4.8
-    "targetPos": OF_OBJECTS["targetPosition"],
-    "targetVel": OF_OBJECTS["targetVelocity"],
-}
-OF_SCENE: dict[str, Property] = {
-    "gravity": Property(
-        lambda sim, h: sim.getArrayParam(sim.arrayparam_gravity),
-        lambda sim, h, v: sim.setArrayParam(sim.arrayparam_gravity, v),
-    ),
-    "simulationTime": Property(lambda sim, h: sim.getSimulationTime()),
-    "simulationState": Property(lambda sim, h: sim.getSimulationState()),
-    "timeStep": Property(lambda sim, h: sim.getSimulationTimeStep(), lambda sim, h, v: sim.setSimulationTimeStep(v)),
-    "scenePath": Property(lambda sim, h: sim.getStringParam(sim.stringparam_scene_path_and_name)),
-}
-OF_SCENE |= more_properties.OF_SCENE
+_PARENT = Sim.handle_parent
 
 
 class PropertyFunctions(CustomDataFunctions):

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 
-class MoreConstants:
+class VersionConstants:
     """A part of the `sim` module."""
 
     # Since version 4.8
