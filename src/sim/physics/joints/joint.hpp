@@ -82,6 +82,9 @@ class Joint {
   /// Of a gearbox; other joints have none.
   virtual std::optional<ShaftCoupling> coupling() const { return std::nullopt; }
 
+  /// Of a fixed joint: holds its bodies as they are now. Other joints do nothing.
+  virtual void hold_here() {}
+
   /// Saves or restores commands, and what the joint remembers of the last substep.
   void transfer(StateArchive& archive);
 

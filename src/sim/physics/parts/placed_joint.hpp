@@ -13,6 +13,8 @@
 
 namespace bubblesim {
 
+/// A joint that is fixed to the world moves with its child when that is put elsewhere: `in_parent` is part of the
+/// state.
 struct PlacedJoint {
   std::unique_ptr<Joint> joint;  // null in a static model
   ObjectId object = kNoObject;

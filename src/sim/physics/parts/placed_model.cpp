@@ -26,6 +26,17 @@ void apply_mass(PlacedModel& model, Link& link, double mass) {
   if (model.planar_motor.exists()) model.planar_motor.limit(total_mass(model));
 }
 
+bool is_anchor(const PlacedModel& model, std::size_t joint) {
+  return model.joints[joint].parent == kNoObject && model.joints[joint].joint != nullptr &&
+         model.description.joints[joint].type == "fixed";
+}
+
+void anchor(PlacedModel& model, std::size_t joint, const Pose& pose) {
+  model.joints[joint].in_parent = pose;
+  model.joints[joint].joint->hold_here();
+  model.trees.reset();
+}
+
 PlanarMotor make_planar_motor(dWorldID world, const PlacedModel& model) {
   const auto link = std::find_if(model.links.begin(), model.links.end(),
                                  [&](const Link& each) { return each.object == model.frame.canonical_link; });

@@ -80,6 +80,11 @@ struct MovingModels {
   const PlacedModel& at(int number) const { return *all[static_cast<std::size_t>(number)]; }
 };
 
+/// Whether a joint holds its child to the world.
+bool is_anchor(const PlacedModel& model, std::size_t joint);
+/// Holds the child of such a joint, which is where it is to be, with the joint's frame at `pose` in the world.
+void anchor(PlacedModel& model, std::size_t joint, const Pose& pose);
+
 /// In kg, at present; infinite for a static model.
 double total_mass(const PlacedModel& model);
 

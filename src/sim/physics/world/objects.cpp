@@ -174,6 +174,15 @@ namespace {
 /// Without rounding errors in the length of the quaternion, which a later motion would multiply.
 Pose normalized(const Pose& pose) { return {pose.position, pose.orientation.normalized()}; }
 
+/// What is fixed to the world stays where it was put.
+void anchor_moved(const WorldState& state, PlacedModel& model, const std::set<ObjectId>& links) {
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const PlacedJoint& joint = model.joints[i];
+    if (!is_anchor(model, i) || links.count(joint.child) == 0) continue;
+    anchor(model, i, normalized(link_pose(state.link(joint.child)) * joint.in_child));
+  }
+}
+
 /// Moves all from where they are relative to `before` to the same place relative to `wanted`.
 void move(WorldState& state, const Movers& moving, const Pose& before, const Pose& wanted) {
   for (const ObjectId frame : moving.frames) {
@@ -204,6 +213,7 @@ void move(WorldState& state, const Movers& moving, const Pose& before, const Pos
     dBodySetPosition(link.body.get(), centre.x(), centre.y(), centre.z());
     dBodySetQuaternion(link.body.get(), to_ode(moved.orientation).data());
   }
+  for (const ObjectId id : models) anchor_moved(state, state.model_of(id), moving.links);
   // Those that are carried keep their new place on what carries them, which may have moved, too.
   for (const ObjectId id : moving.links) {
     if (state.link(id).body == nullptr) attach_static(state, id, state.link(id).carrier);

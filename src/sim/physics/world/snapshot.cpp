@@ -74,6 +74,14 @@ void transfer_joint(StateArchive& archive, PlacedJoint& placed) {
   }
 }
 
+/// After the links.
+void transfer_anchor(StateArchive& archive, PlacedModel& model, std::size_t joint) {
+  const Pose before = model.joints[joint].in_parent;
+  Pose pose = before;
+  archive(pose);
+  if (archive.restores() && pose != before) anchor(model, joint, pose);
+}
+
 void transfer_model(StateArchive& archive, const WorldState& state, PlacedModel& model) {
   transfer_masses(archive, model);
   for (Link& link : model.links) {
@@ -82,7 +90,10 @@ void transfer_model(StateArchive& archive, const WorldState& state, PlacedModel&
     if (model.rest.may_sleep) archive(link.rest_pose);
   }
   for (Rotation& rotation : model.rotations) archive(rotation);
-  for (PlacedJoint& joint : model.joints) transfer_joint(archive, joint);
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    transfer_joint(archive, model.joints[i]);
+    if (is_anchor(model, i)) transfer_anchor(archive, model, i);
+  }
   for (auto& [index, meter] : model.motion_meters) archive(meter);
   archive(model.rest.time, model.rest.group);
   transfer_planar_motor(archive, state, model);

@@ -145,6 +145,7 @@ void attach_static(WorldState& state, ObjectId link, ObjectId carrier);
 void attach_statics(WorldState& state, const PlacedModel& model);
 /// Saves or restores where the links of static models are, and the sensors in their links.
 void transfer_places(StateArchive& archive, WorldState& state);
+void add_pose(Fnv1a& hash, const Pose& pose);
 /// Adds what is not where its description has it.
 void add_places(Fnv1a& hash, const WorldState& state);
 

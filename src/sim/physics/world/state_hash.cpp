@@ -37,6 +37,13 @@ void add_planar_motor(Fnv1a& hash, const PlanarMotor& motor) {
 
 }  // namespace
 
+void add_pose(Fnv1a& hash, const Pose& pose) {
+  const Vector3& p = pose.position;
+  const Quaternion& q = pose.orientation;
+  const double values[] = {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};
+  hash.add(values, 7);
+}
+
 std::uint64_t World::state_hash() const {
   Fnv1a hash;
   for (const auto& model : state_->models) {
@@ -57,7 +64,9 @@ std::uint64_t World::state_hash() const {
     add_rest(hash, *model);
   }
   for (const auto& model : state_->models) {
-    for (const PlacedJoint& placed : model->joints) {
+    for (std::size_t i = 0; i < model->joints.size(); ++i) {
+      const PlacedJoint& placed = model->joints[i];
+      if (is_anchor(*model, i)) add_pose(hash, placed.in_parent);
       for (int axis = 0; placed.joint && axis < placed.joint->axis_count(); ++axis) {
         const double targets[] = {placed.joint->target_position(axis), placed.joint->target_velocity(axis),
                                   placed.joint->target_effort(axis), placed.joint->axis(axis).max_force,

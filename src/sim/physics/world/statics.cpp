@@ -10,12 +10,6 @@
 namespace bubblesim {
 namespace {
 
-void add_pose(Fnv1a& hash, const Pose& pose) {
-  const double numbers[] = {pose.position.x(),    pose.position.y(),    pose.position.z(),   pose.orientation.x(),
-                            pose.orientation.y(), pose.orientation.z(), pose.orientation.w()};
-  hash.add(numbers, 7);
-}
-
 bool equal(const Pose& a, const Pose& b) {
   return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
 }

@@ -4,8 +4,11 @@
 
 #include <functional>
 #include <set>
+#include <string>
+#include <string_view>
 
 #include "bubblesim/error.hpp"
+#include "bubblesim/state_archive.hpp"
 #include "bubblesim/world.hpp"
 #include "near.hpp"
 #include "scenes.hpp"
@@ -241,6 +244,44 @@ TEST_F(RobotWorld, StaticModelsAndSensorsStayWhereTheyAreMoved) {
   expect_near(world.pose(find("/Wall/link")), described.models[1].pose, 1e-12);
   const ModelDescription& robot = described.models[0];
   expect_near(world.pose(find("/Sonar")), robot.pose * robot.links[0].pose * robot.links[0].sensors[0].pose, 1e-12);
+}
+
+/// An arm that is fixed to the world, with a load at its end.
+SceneDescription fixed_arm(Solver solver) {
+  ModelDescription arm = model("Arm", link("base", {0, 0, 1}));
+  arm.links.push_back(link("tip", {0.5, 0, 1}));
+  arm.joints = {joint("fixed", {}, {}, "world", "base"),
+                joint("revolute", {axis(Vector3::UnitY(), MotorMode::kVelocity)}, {-0.5, 0, 0}, "base", "tip")};
+  arm.joints[0].name = "anchor";
+  SceneDescription made = scene({arm});
+  made.solver = solver;
+  return made;
+}
+
+TEST(FixedToTheWorld, AModelStaysWhereItIsPut) {
+  for (const Solver solver : {Solver::kBubblesim, Solver::kOde}) {
+    World moved(fixed_arm(solver), 0);
+    moved.advance(0.1, kStep);
+    const ObjectId base = moved.tree().find("/base");
+    const Pose elsewhere(2, 1, 0.5, 0, 0, 1);
+    moved.set_pose(moved.tree().find("/Arm"), elsewhere);
+    const Pose put = moved.pose(base);
+    expect_near(put, elsewhere * at(0, 0, 1), 1e-9);
+    moved.advance(1, kStep);
+    expect_near(moved.pose(base), put, 1e-4);
+    std::string saved;
+    StateArchive save(saved);
+    moved.transfer(save);
+    World other(fixed_arm(solver), 0);
+    StateArchive restore{std::string_view(saved)};
+    other.transfer(restore);
+    EXPECT_EQ(other.state_hash(), moved.state_hash());
+    other.advance(1, kStep);
+    expect_near(other.pose(base), put, 1e-4);
+    moved.reset();
+    moved.advance(1, kStep);
+    expect_near(moved.pose(base), at(0, 0, 1), 1e-4);
+  }
 }
 
 TEST_F(RobotWorld, HandlesThatNameNothingAreRefused) {
