@@ -54,3 +54,10 @@ def refusal(call: Callable[..., object], *arguments: object) -> str:
     with pytest.raises(Exception) as raised:  # noqa: PT011  # the client raises no other type
         call(*arguments)
     return str(raised.value)
+
+
+def warning(sim: Any, call: Callable[..., object], *arguments: object) -> str:
+    """Return the warning of a call that physics refuses, after which a program of CoppeliaSim goes on."""
+    last = sim.getLog()["last"]
+    call(*arguments)
+    return str(sim.getLog(last)["entries"][0]["text"])

@@ -15,7 +15,7 @@ import signal
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -24,8 +24,10 @@ from bubblesim.running.processes import Program, Programs
 from bubblesim.testing.kept_files import keep
 from bubblesim.testing.master import Master, start_master
 from bubblesim.testing.ros2_domain import Ros2Domain, without_ros1
-from bubblesim.testing.ros2_simulator import Ros2Simulator
 from bubblesim.testing.simulator import Simulator
+
+if TYPE_CHECKING:
+    from bubblesim.testing.ros2_simulator import Ros2Simulator
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -42,7 +44,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 StartController = Callable[..., Program]
 StartSimulator = Callable[..., Simulator]
-StartRos2Simulator = Callable[..., Ros2Simulator]
+StartRos2Simulator = Callable[..., "Ros2Simulator"]
 
 
 _FAILED = pytest.StashKey[bool]()
@@ -131,6 +133,9 @@ def ros2_controller(ros2_domain: Ros2Domain, _programs: Programs) -> StartContro
 @pytest.fixture
 def ros2_sim(ros2_domain: Ros2Domain, _programs: Programs, tmp_path: Path) -> StartRos2Simulator:
     """Return a function that starts a Ros2Simulator: ``ros2_sim("tricycle", lockstep=["/speed", "/steering"])``."""
+    # Not before pytest_configure() has found out whether this Python can load the module.
+    from bubblesim.testing.ros2_simulator import Ros2Simulator
+
     numbers = itertools.count(1)
 
     def start(

@@ -240,8 +240,8 @@ TEST(Snapshot, RemovesModelsThatWereAddedSince) {
 TEST(Snapshot, HasTheSizeOfItsVersion) {
   Simulation simulation(scene({floor(), model("Box", link_with(Box{{1, 1, 1}}), at(0, 0, 2))}));
   const std::string saved = simulation.save();
-  EXPECT_EQ(static_cast<int>(saved[16]), 7) << "version";
-  EXPECT_EQ(saved.size(), 839U) << "bytes";
+  EXPECT_EQ(static_cast<int>(saved[16]), 8) << "version";
+  EXPECT_EQ(saved.size(), 855U) << "bytes";
 }
 
 }  // namespace

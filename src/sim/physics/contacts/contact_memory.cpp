@@ -139,19 +139,20 @@ void remember_contacts(const FoundContacts& found, ContactMemory& memory, Contac
 
 void sort_by_sleep(ContactMemory& memory, ContactMemory& asleep) {
   const std::array<ContactMemory, 2> before = {std::exchange(memory, {}), std::exchange(asleep, {})};
+  std::vector<std::pair<RememberedPair, const ContactMemory*>> all;
   for (const ContactMemory& from : before) {
-    for (RememberedPair pair : from.pairs) {
-      ContactMemory& to = both_sleep(pair) ? asleep : memory;
-      const auto begin = from.points.begin() + static_cast<std::ptrdiff_t>(pair.begin);
-      pair.begin = to.points.size();
-      to.points.insert(to.points.end(), begin, begin + pair.count);
-      to.pairs.push_back(pair);
-    }
+    for (const RememberedPair& pair : from.pairs) all.emplace_back(pair, &from);
   }
-  const auto by_numbers = [](const RememberedPair& a, const RememberedPair& b) {
-    return numbers(a.first, a.second) < numbers(b.first, b.second);
-  };
-  for (ContactMemory* sorted : {&memory, &asleep}) std::sort(sorted->pairs.begin(), sorted->pairs.end(), by_numbers);
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return numbers(a.first.first, a.first.second) < numbers(b.first.first, b.first.second);
+  });
+  for (auto& [pair, from] : all) {
+    ContactMemory& to = both_sleep(pair) ? asleep : memory;
+    const auto begin = from->points.begin() + static_cast<std::ptrdiff_t>(pair.begin);
+    pair.begin = to.points.size();
+    to.points.insert(to.points.end(), begin, begin + pair.count);
+    to.pairs.push_back(pair);
+  }
 }
 
 }  // namespace bubblesim

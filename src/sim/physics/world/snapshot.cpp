@@ -146,6 +146,7 @@ void transfer_physics(StateArchive& archive, WorldState& state) {
   archive(state.wrenches, state.last_duration, state.touches.substeps, state.bottom, state.age);
   if (!archive.restores()) return;
   sort_by_sleep(state.moving, state.spaces, state.contacts);
+  state.moving.is_any_commanded = true;  // it may have been before the state was saved
   state.diverged = false;
 }
 
