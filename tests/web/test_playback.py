@@ -251,16 +251,25 @@ WATCH = """async (source) => {
   await new Promise((done, fail) => { video.onloadeddata = done; video.onerror = () => fail(video.error.message); });
   const canvas = document.createElement("canvas");
   Object.assign(canvas, { width: video.videoWidth, height: video.videoHeight });
-  const at = async (time) => {
-    video.currentTime = time;
-    await new Promise((done) => (video.onseeked = done));
+  const seen = () => {
     const context = canvas.getContext("2d");
     context.drawImage(video, 0, 0);
     const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
     return [...data].filter((_, i) => i % 404 === 0);
   };
-  return { width: video.videoWidth, height: video.videoHeight, duration: video.duration,
-           first: await at(0), last: await at(video.duration - 0.05) };
+  const seek = async (time) => {
+    video.currentTime = time;
+    await new Promise((done) => (video.onseeked = done));
+  };
+  await seek(0);
+  const first = seen();
+  await seek(video.duration - 0.05);
+  let last = seen();
+  for (let i = 0; i < 100 && String(first) === String(last); i++) {
+    await new Promise((done) => setTimeout(done, 20)); // a busy browser draws the picture later
+    last = seen();
+  }
+  return { width: video.videoWidth, height: video.videoHeight, duration: video.duration, first, last };
 }"""
 
 
