@@ -89,13 +89,13 @@ def test_require_gives_the_modules_whatever_version_is_asked_for(tmp_path: Path)
             assert require('sim') is sim and require('sim-2') is sim
             assert not simROS and require('simROS') is simROS
             try:
-                require('simGLTF')
+                require('simFoo')
             except ImportError as error:
                 print(error)
     """
     assert lines(tmp_path, code) == [
-        "module 'simGLTF' not found; require supports sim, simUI, simIK, simOMPL, simVision, simRemoteApi, simROS, "
-        "simROS2"
+        "module 'simFoo' not found; require supports sim, simUI, simIK, simOMPL, simVision, simIM, simRemoteApi, "
+        "simROS, simROS2"
     ]
 
 

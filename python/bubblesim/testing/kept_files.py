@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 from bubblesim.running.recording import Pose, Recording, Sample
-from bubblesim.testing.mcap_messages import read_messages
 
 _SCENE = re.compile(r"[^\w.-]+")
 
@@ -58,6 +57,8 @@ def _path_in(bag: Path) -> Recording:
 
 def _transforms(bag: Path) -> Iterator[tuple[float, Any]]:
     if bag.suffix == ".mcap":
+        from bubblesim.testing.mcap_messages import read_messages  # needs numpy: see pytest_configure() of the plugin
+
         yield from ((at, message) for _, message, at in read_messages(bag, "/tf"))
         return
     import rosbag  # loads slowly
