@@ -206,7 +206,6 @@ BAD_CALLS = {
     "sim.setObjectPosition(sim.handle_self, [1, None, 2])": "position: expected 3 numbers, found list [1, None, 2]",
     "sim.setObjectPosition(sim.handle_self, [1, 2, float('nan')])": "finite",
     "sim.setObjectQuaternion(sim.handle_self, [0, 0, 0, 0])": "uaternion",
-    "sim.setObjectPosition(sim.getObject('/Floor'), [1, 2, 3])": "/Floor",
     "sim.setJointTargetVelocity(sim.handle_self, 1)": "/Ball is a model, not a joint",
     "sim.setJointTargetVelocity(sim.handle_self, 'x')": "argument 2, velocity: expected a number, found str 'x'",
     "sim.readProximitySensor(sim.handle_self)": "/Ball is a model, not a proximity sensor",
@@ -220,6 +219,13 @@ def test_bad_calls_are_explained(tmp_path: Path, call: str) -> None:
     assert run.returncode == 3
     assert BAD_CALLS[call] in run.stderr.splitlines()[-1]
     assert "incompatible function arguments" not in run.stderr
+
+
+def test_a_floor_that_cannot_be_moved_is_a_warning(tmp_path: Path) -> None:
+    body = "def sysCall_init():\n    sim.setObjectPosition(sim.getObject('/Floor'), [1, 2, 3])\n    print('goes on')\n"
+    run = run_script(tmp_path, body, "--strict")
+    assert (run.returncode, run.stdout) == (0, "goes on\n")
+    assert "sim.setObjectPosition has no effect: /Floor has an infinite plane" in run.stderr
 
 
 def test_a_launched_program_gets_its_arguments_as_a_shell_would_split_them(tmp_path: Path) -> None:
