@@ -183,7 +183,8 @@ def test_the_text_of_a_threaded_script_of_v_rep_3_5_is_its_thread(tmp_path: Path
         res, err = xpcall(threadFunction, function(err) return debug.traceback(err) end)
         if not res then sim.addStatusbarMessage('Lua runtime error: '..err) end
     """
-    assert old_script(tmp_path, code) == "0.0\n0.05\n0.1\n0.15\n"
+    # On a busy machine the thread may be interrupted, after 200 ms, before it prints the first time.
+    assert old_script(tmp_path, code).endswith("0.05\n0.1\n0.15\n")
 
 
 def test_the_text_of_a_script_of_v_rep_2_runs_in_each_step(tmp_path: Path) -> None:
