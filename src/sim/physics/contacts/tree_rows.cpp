@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rows of a model's joints: motors, friction, dampers, stops, closed loops, gearboxes.
+// The rows of a model's joints: motors, friction, dampers, stops, closed loops, gearboxes; and of its planar motor.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -12,6 +12,16 @@ namespace bubblesim {
 namespace {
 
 constexpr double kReachOfStop = 1000;  // rad/s^2 or m/s^2, with which an axis may reach a stop in a substep
+
+/// Lets a row reach a velocity, in m/s or rad/s, with a force or torque of at most `most`.
+void drive(ConstraintRows& rows, int row, double velocity, double most, double step) {
+  rows.set(row, velocity, kConstraintSoftness / step, 0);
+  ConeBlock block;
+  block.row = row;
+  block.upper = most * step;
+  block.lower = -block.upper;
+  rows.bound(block);
+}
 
 }  // namespace
 
@@ -40,12 +50,7 @@ void TreeModel::add_axis_rows(const Axis& axis, ConstraintRows& rows, double ste
   const AxisForces& forces = axis.forces;
   const auto hold = [&](const MotorForce& force) {
     const int row = add_axis_row(axis, rows);
-    rows.set(row, force.velocity, kConstraintSoftness / step, 0);
-    ConeBlock block;
-    block.row = row;
-    block.upper = force.max_force * step;
-    block.lower = -block.upper;
-    rows.bound(block);
+    drive(rows, row, force.velocity, force.max_force, step);
     return row;
   };
   if (forces.motor && forces.motor->max_force > 0) {
@@ -139,17 +144,9 @@ void TreeModel::add_planar_motor(ConstraintRows& rows, double step) {
   const Vector3 centre = to_vector(dBodyGetPosition(link_of(link).body.get()));
   const std::array<double, 3> velocity = model_.planar_motor.velocity();
   const std::array<double, 3> most = model_.planar_motor.most();
-  const auto hold = [&](int row, std::size_t i) {
-    rows.set(row, velocity[i], kConstraintSoftness / step, 0);
-    ConeBlock block;
-    block.row = row;
-    block.upper = most[i] * step;
-    block.lower = -block.upper;
-    rows.bound(block);
-  };
-  hold(rows.add_force(body, {}, centre, Vector3::UnitX()), 0);
-  hold(rows.add_force(body, {}, centre, Vector3::UnitY()), 1);
-  hold(rows.add_torque(body, {}, Vector3::UnitZ()), 2);
+  drive(rows, rows.add_force(body, {}, centre, Vector3::UnitX()), velocity[0], most[0], step);
+  drive(rows, rows.add_force(body, {}, centre, Vector3::UnitY()), velocity[1], most[1], step);
+  drive(rows, rows.add_torque(body, {}, Vector3::UnitZ()), velocity[2], most[2], step);
 }
 
 }  // namespace bubblesim
