@@ -18,7 +18,7 @@ import rosbag
 import yaml
 
 from bubblesim.running.processes import Program, Programs, RunError
-from bubblesim.testing import simulator
+from bubblesim.testing import any_simulator
 from bubblesim.testing.master import Master, start_master
 from bubblesim.testing.plugin import StartController, StartSimulator
 from cli_support import bubblesim
@@ -238,7 +238,7 @@ def test_a_controller_may_start_late(tmp_path: Path, controller: StartController
 
 
 def test_a_missing_controller_is_reported(sim: StartSimulator, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(simulator, "_STARTING_TIMEOUT", 0.0)
+    monkeypatch.setattr(any_simulator, "_STARTING_TIMEOUT", 0.0)
     tricycle = sim("tricycle", lockstep=TOPICS)
     with pytest.raises(RunError, match="for a controller that publishes /speed and /steering"):
         tricycle.run(1.0)

@@ -8,7 +8,7 @@ import pytest
 
 from bubblesim.running.isolation import reserve_domain
 from bubblesim.running.processes import RunError
-from bubblesim.testing import ros2_simulator
+from bubblesim.testing import any_simulator
 from bubblesim.testing.mcap_messages import read_messages
 from bubblesim.testing.plugin import StartController, StartRos2Simulator
 from bubblesim.testing.ros2_domain import Ros2Domain, without_ros1
@@ -111,7 +111,7 @@ def test_a_topic_without_a_subscriber_is_reported(ros2_sim: StartRos2Simulator) 
 
 
 def test_a_missing_controller_is_reported(ros2_sim: StartRos2Simulator, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ros2_simulator, "_STARTING_TIMEOUT", 0.0)
+    monkeypatch.setattr(any_simulator, "_STARTING_TIMEOUT", 0.0)
     tricycle = ros2_sim("tricycle", lockstep=TOPICS)
     with pytest.raises(RunError, match="for a controller that publishes /speed and /steering"):
         tricycle.run(1.0)

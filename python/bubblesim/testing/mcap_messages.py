@@ -11,9 +11,6 @@ from typing import Any
 
 from bubblesim import _core
 
-Message = tuple[float, Any]
-"""Seconds, and the message: its fields are attributes."""
-
 _MAGIC_BYTES = 8
 _SCHEMA, _CHANNEL, _MESSAGE, _DATA_END = 3, 4, 5, 15
 _RECORD = struct.Struct("<BQ")  # kind, bytes of its content

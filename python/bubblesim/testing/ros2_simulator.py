@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A simulator on ROS 2 controlled by a test."""
+"""A simulator on ROS 2 controlled by a test: without ROS, as a remote client does."""
 
 from __future__ import annotations
 
@@ -11,22 +11,21 @@ from pathlib import Path
 
 import zmq
 
-from bubblesim.observers.lock_step import BEFORE_THE_CONTROLLER
 from bubblesim.remote.connection import Connection, connect
-from bubblesim.running.places import node_program
 from bubblesim.running.processes import Programs, RunError
-from bubblesim.testing.mcap_messages import Message, read_messages
+from bubblesim.testing.any_simulator import AnySimulator, Message, check_start
+from bubblesim.testing.mcap_messages import read_messages
 
 _TIMEOUT = 30.0  # s for an answer
-_STARTING_TIMEOUT = 20.0  # s until a controller is connected; longer than the node waits in a step
 _POLL = 0.0005  # s
-_TOLERANCE = 1e-6  # of a second
 _PORT = re.compile(r"remote clients can connect to tcp://127\.0\.0\.1:(\d+)")
 _WAITS = re.compile(r"^warning: (lockstep waits.*)$", re.MULTILINE)
 
 
-class Ros2Simulator:
-    """The node with a scene, which waits except during `run`. It is controlled without ROS, as a remote client does."""
+class Ros2Simulator(AnySimulator):
+    """The node with a scene, which waits except during `run`."""
+
+    _node_options = ("--ros=2", "--remote=0", "_use_sim_time:=true")
 
     def __init__(
         self,
@@ -37,25 +36,9 @@ class Ros2Simulator:
         seed: int = 0,
         options: Sequence[str] = (),
     ) -> None:
-        """Start it.
-
-        :param bag: the .mcap file to write.
-        :param scene: name of a scene, or path of an .sdf file.
-        :param lockstep: topics that a controller publishes once in each step.
-        :param options: additional options of the node.
-        :raises RunError: with its output, if it does not start.
-        """
-        self.time = 0.0
-        self.bag = bag
-        bag.with_suffix(".scene").write_text(scene)  # over which its path is drawn
-        self._programs = programs
+        """Start it; see AnySimulator."""
         token = bag.with_suffix(".token")  # the port is open to all users of the machine
-        steps = [argument for topic in lockstep for argument in ("--lockstep", topic)]
-        self._node = programs.start(
-            "simulator",
-            *[str(node_program()), scene, "--ros=2", "--remote=0", f"--remote-token={token}", "--speed", "max"],
-            *["--seed", str(seed), "--record", str(bag), *steps, *options, "_use_sim_time:=true"],
-        )
+        super().__init__(programs, bag, scene, lockstep, seed, [f"--remote-token={token}", *options])
         self._connection: Connection = connect(self._port(), token=token, timeout=_TIMEOUT)
         self._sim = self._connection.sim
         self._sim.setStepping(True)
@@ -64,16 +47,8 @@ class Ros2Simulator:
         self._step_is_requested = False
         self._output_before = 0  # characters of the node's output at the last step
 
-    def run(self, seconds: float) -> None:
-        """Run for this simulated time, s; with `lockstep`, each step waits for the controller's messages.
-
-        :raises RunError: with the last output, if the controller does not publish in time, or a program has ended.
-        """
-        end = self.time + seconds
-        while self.time < end - _TOLERANCE:
-            self._run_step()
-
-    def _run_step(self) -> None:
+    def _run_steps(self, seconds: float) -> None:
+        """Run one step."""
         if not self._step_is_requested:  # by a run that has failed
             self._sim.step(False)
             self._step_is_requested = True
@@ -95,26 +70,20 @@ class Ros2Simulator:
     def _check_progress(self, waited: float) -> None:
         """Raise RunError if the node has reported why the step does not begin."""
         reasons = _WAITS.findall(self._node.output()[self._output_before :]) if waited > 1.0 else []
-        if reasons and (not reasons[-1].startswith(BEFORE_THE_CONTROLLER) or waited > _STARTING_TIMEOUT):
-            self._output_before = len(self._node.output())
-            raise RunError(reasons[-1])
+        if reasons:
+            try:
+                check_start(reasons[-1], waited)
+            except RunError:
+                self._output_before = len(self._node.output())
+                raise
 
-    def position(self, path: str) -> tuple[float, float, float]:
-        """Return the position of an object, metres in the world frame.
+    def _pose(self, path: str) -> list[float]:
+        try:
+            return [float(number) for number in self._sim.getObjectPose(self._sim.getObject(path))]
+        except RuntimeError as error:
+            raise LookupError(str(error)) from None
 
-        :raises LookupError: with similar names.
-        """
-        x, y, z = self._sim.getObjectPosition(self._object(path))
-        return float(x), float(y), float(z)
-
-    def orientation(self, path: str) -> tuple[float, float, float, float]:
-        """Return the orientation of an object in the world, x, y, z, w; raise LookupError with similar names."""
-        x, y, z, w = self._sim.getObjectQuaternion(self._object(path))
-        return float(x), float(y), float(z), float(w)
-
-    def messages(self, topic: str) -> list[Message]:
-        """Return the messages of scripts on a topic, sent and received, with simulated times. Ends the simulator."""
-        self.close()
+    def _recorded(self, topic: str) -> list[Message]:
         return [(at, message) for _, message, at in read_messages(self.bag, topic)]
 
     def close(self) -> None:
@@ -122,13 +91,7 @@ class Ros2Simulator:
         with contextlib.suppress(TimeoutError, RuntimeError, zmq.ZMQError):  # it has ended, or was closed before
             self._sim.pauseSimulation()  # it would go on when its client is gone
         self._connection.close()
-        self._node.stop()
-
-    def _object(self, path: str) -> int:
-        try:
-            return int(self._sim.getObject(path))
-        except RuntimeError as error:
-            raise LookupError(str(error)) from None
+        super().close()
 
     def _port(self) -> int:
         deadline = time.monotonic() + _TIMEOUT

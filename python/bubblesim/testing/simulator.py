@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A simulator controlled by a test."""
+"""A simulator on ROS 1 controlled by a test: by the services of the node."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bubblesim.running.places import node_program
 from bubblesim.running.processes import Programs, RunError
+from bubblesim.testing.any_simulator import AnySimulator, Message, check_start
 from bubblesim.testing.master import Master
 
 if TYPE_CHECKING:
@@ -17,16 +17,14 @@ if TYPE_CHECKING:
 
 _NODE = "/sim_ros_interface"
 _TIMEOUT = 30.0  # s
-_STARTING_TIMEOUT = 20.0  # s until a controller is connected; longer than the node waits in a step
 _POLL = 0.03  # s; each query keeps the master from other nodes for some milliseconds
 _STEPS_PER_CALL = 200
-_TOLERANCE = 1e-6  # of a second
-
-Message = tuple[float, Any]  # simulated time in seconds, and a message as a rospy object
 
 
-class Simulator:
+class Simulator(AnySimulator):
     """The node with a scene, paused except during `run`."""
+
+    _node_options = ("--paused",)
 
     def __init__(
         self,
@@ -38,48 +36,20 @@ class Simulator:
         seed: int = 0,
         options: Sequence[str] = (),
     ) -> None:
-        """Start it.
-
-        :param bag: the bag file to write.
-        :param scene: name of a scene, or path of an .sdf file.
-        :param lockstep: topics that a controller publishes once in each step.
-        :param options: additional options of the node.
-        :raises RunError: with its output, if it does not start.
-        """
-        self.time = 0.0
-        self.bag = bag
-        bag.with_suffix(".scene").write_text(scene)  # over which its path is drawn
-        self._programs = programs
+        """Start it on a master; see AnySimulator."""
+        super().__init__(programs, bag, scene, lockstep, seed, options)
         self._time_step = 0.0  # s; unknown before the first step
-        steps = [argument for topic in lockstep for argument in ("--lockstep", topic)]
-        self._node = programs.start(
-            "simulator",
-            *[str(node_program()), scene, "--paused", "--speed", "max", "--seed", str(seed)],
-            *["--record", str(self.bag), *steps, *options],
-        )
         self._master = master
         self._step = self._client("step", "bubblesim_msgs/Step")
         self._state = self._client("get_object_state", "bubblesim_msgs/GetObjectState")
 
-    def run(self, seconds: float) -> None:
-        """Run for this simulated time, s; with `lockstep`, each step waits for the controller's messages.
-
-        :raises RunError: with the last output, if the controller does not publish in time, or a program has ended.
-        """
-        end = self.time + seconds
-        while self.time < end - _TOLERANCE:
-            left = round((end - self.time) / self._time_step) if self._time_step else 1
-            self._run_steps(min(max(left, 1), _STEPS_PER_CALL))
-
-    def _run_steps(self, steps: int) -> None:
-        from bubblesim.observers.lock_step import BEFORE_THE_CONTROLLER  # loads slowly, while the node also starts
-
+    def _run_steps(self, seconds: float) -> None:
         before = self.time
-        deadline = time.monotonic() + _STARTING_TIMEOUT
+        steps = min(max(round(seconds / self._time_step), 1), _STEPS_PER_CALL) if self._time_step else 1
+        begin = time.monotonic()
         while problem := self._try_steps(steps):
             self._programs.check()  # a program that has ended is the better explanation
-            if not problem.startswith(BEFORE_THE_CONTROLLER) or time.monotonic() > deadline:
-                raise RunError(problem)
+            check_start(problem, time.monotonic() - begin)
         self._time_step = self._time_step or (self.time - before) / steps
 
     def _try_steps(self, steps: int) -> str:
@@ -92,24 +62,16 @@ class Simulator:
         self.time = answer["time"]
         return "" if answer["success"] else str(answer["status_message"])
 
-    def position(self, path: str) -> tuple[float, float, float]:
-        """Return the position of an object, metres in the world frame.
+    def _pose(self, path: str) -> list[float]:
+        try:
+            pose: dict[str, Any] = self._state.call(object=path)["pose"]
+        except RuntimeError as error:  # error message of the service
+            raise LookupError(str(error)) from None
+        return [*(pose["position"][axis] for axis in "xyz"), *(pose["orientation"][axis] for axis in "xyzw")]
 
-        :raises LookupError: with similar names.
-        """
-        position = self._object_state(path)["pose"]["position"]
-        return position["x"], position["y"], position["z"]
-
-    def orientation(self, path: str) -> tuple[float, float, float, float]:
-        """Return the orientation of an object in the world, x, y, z, w; raise LookupError with similar names."""
-        turn = self._object_state(path)["pose"]["orientation"]
-        return turn["x"], turn["y"], turn["z"], turn["w"]
-
-    def messages(self, topic: str) -> list[Message]:
-        """Return the messages of scripts on a topic, sent and received, with simulated times. Ends the simulator."""
+    def _recorded(self, topic: str) -> list[Message]:
         import rosbag  # loads slowly
 
-        self.close()
         with rosbag.Bag(str(self.bag)) as bag:
             return [(stamp.to_sec(), message) for _, message, stamp in bag.read_messages(topics=[topic])]
 
@@ -117,13 +79,7 @@ class Simulator:
         """End the node, which completes its bag."""
         self._step.close()
         self._state.close()
-        self._node.stop()
-
-    def _object_state(self, path: str) -> dict[str, Any]:
-        try:
-            return self._state.call(object=path)
-        except RuntimeError as error:  # error message of the service
-            raise LookupError(str(error)) from None
+        super().close()
 
     def _client(self, name: str, service_type: str) -> ServiceClient:
         from bubblesim.testing.service_client import ServiceClient  # loads slowly, while the node also starts
