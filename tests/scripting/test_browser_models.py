@@ -293,6 +293,28 @@ def sysCall_sensing():
     script(tmp_path, body, rest=rest, until=5)
 
 
+def test_a_static_arm_moves_along_with_the_robot_that_it_is_attached_to(tmp_path: Path) -> None:
+    body = """
+self.robot, self.arm = sim.getObject('/PioneerP3DX'), sim.loadModel('UR3.ttm')
+sim.setObjectPosition(self.arm, [0, 0, 0.4])
+sim.setObjectParent(self.arm, self.robot, True)
+sim.setObjectInt32Param(self.arm, sim.shapeintparam_static, 1)
+self.before = sim.getObjectPosition(self.arm, self.robot)
+for motor in ('leftMotor', 'rightMotor'):
+    sim.setJointTargetVelocity(sim.getObject('/PioneerP3DX/' + motor), 4)
+self.joints = sim.getObjectsInTree(self.arm, sim.object_joint_type)[:6]
+for joint in self.joints:
+    sim.setJointTargetPosition(joint, 0.5)
+"""
+    rest = """
+def sysCall_cleanup():
+    assert sim.getObjectPosition(self.robot)[0] > 0.7
+    assert math.dist(sim.getObjectPosition(self.arm, self.robot), self.before) < 2e-3
+    assert all(abs(sim.getJointPosition(joint) - 0.5) < 5e-3 for joint in self.joints)
+"""
+    script(tmp_path, body, rest=rest, until=3)
+
+
 def turn(angle: float, axis: int) -> Matrix:
     """The rotation about x (0) or z (2) as a matrix of 4 rows and columns."""
     matrix, (i, j) = np.eye(4), ((axis + 1) % 3, (axis + 2) % 3)
