@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A script that fails is reported once, with file:line and object, and the other scripts continue."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -177,6 +178,30 @@ def test_an_attribute_of_self_that_is_not_set_is_named_with_the_nearest_one(tmp_
     assert lines[-1] == "AttributeError: self.bal is not set in this script; did you mean self.ball?"
     asks = "def sysCall_init(): print(hasattr(self, 'b'), getattr(self, 'b', 5))\n"
     assert run_script(tmp_path, asks).stdout == "False 5\n"
+
+
+def test_a_function_written_like_a_method_is_reported_with_its_line_and_the_cure(tmp_path: Path) -> None:
+    first, *traceback = run_script(tmp_path, "import math\ndef sysCall_init(self): pass\n").stderr.splitlines()
+    assert first == f"error: child script of /Ball failed in sysCall_init ({tmp_path}/script.py:2) and is disabled:"
+    (reason,) = traceback
+    assert reason.endswith("'self'; `self` is a global of the script: write def sysCall_init():")
+
+
+def test_a_module_that_is_not_installed_is_named_with_the_python_that_needs_it(tmp_path: Path) -> None:
+    run = run_script(tmp_path, "import nowhere.parts\ndef sysCall_init(): pass\n")
+    assert f"failed in loading ({tmp_path}/script.py:1)" in run.stderr
+    reason = run.stderr.splitlines()[-1]
+    assert re.fullmatch(
+        r"ModuleNotFoundError: No module .*; scripts run with Python 3.\d+ of /.*: install nowhere .*", reason
+    )
+
+
+def test_a_module_beside_the_script_is_to_be_included(tmp_path: Path) -> None:
+    write(tmp_path / "helper.py", "speed = 2\n")
+    reason = run_script(tmp_path, "import helper\ndef sysCall_init(): pass\n").stderr.splitlines()[-1]
+    assert f"modules are not searched in {tmp_path}: begin the script with the line `include helper`" in reason
+    run = run_script(tmp_path, "include helper\ndef sysCall_init(): print(speed)\n")
+    assert (run.stdout, run.stderr) == ("2\n", "")
 
 
 def test_a_script_in_another_language_is_named(tmp_path: Path) -> None:

@@ -38,6 +38,20 @@ def test_the_place_is_reported_and_the_node_ends_on_a_signal(tmp_path: Path, nam
         assert "was interrupted in sysCall_" in node.output
 
 
+def test_a_script_that_waits_for_a_master_with_rospy_is_named(tmp_path: Path) -> None:
+    script = write(
+        tmp_path / "script.py", "import rospy\ndef sysCall_init(): rospy.init_node('mine', disable_signals=True)\n"
+    )
+    port = free_port()
+    with Node(
+        ros_environment(port, tmp_path), tmp_path / "log", "ball", "--no-ros", f"--child-script=/Ball={script}"
+    ) as node:
+        node.wait_for_output("the simulation is waiting")
+        uri = f"http://localhost:{port}"
+        assert f"; rospy waits for the ROS master at {uri}, which does not answer: start roscore" in node.output
+        assert node.end() == 0
+
+
 def test_a_callback_is_reported_once(tmp_path: Path) -> None:
     code = "import time\ndef sysCall_init(): time.sleep(4.5)\n"
     run = run_script(tmp_path, code, slowness=True)

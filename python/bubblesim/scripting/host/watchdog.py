@@ -9,6 +9,7 @@ import weakref
 
 from bubblesim.program.output import write_line
 from bubblesim.scripting.host import interruption
+from bubblesim.scripting.host.missing_master import waits_for_master
 from bubblesim.scripting.host.protocols import Host, RunningScript
 
 _CHECK_INTERVAL = 0.1  # s
@@ -44,7 +45,7 @@ def _watch(find_host: weakref.ref[Host], simulation_thread: int, ended: threadin
         if script is not None and checks >= _CHECKS:
             script.stuck_at = script.where_now(simulation_thread)
             if checks == _CHECKS:
-                _warn(script)
+                _warn(script, waits_for_master(simulation_thread))
             if host.stop_waits():
                 _break_off(host, call, simulation_thread)
         del host, script
@@ -54,10 +55,10 @@ def _break_off(host: Host, call: int, simulation_thread: int) -> None:
     interruption.break_off(simulation_thread, lambda: host.running_script is not None and host.calls == call)
 
 
-def _warn(script: RunningScript) -> None:
+def _warn(script: RunningScript, cause: str) -> None:
     place = f", now at {script.stuck_at}" if script.stuck_at else ""
     write_line(
         sys.stderr,
         f"warning: child script of {script.object_path} has not returned from {script.activity} for "
-        f"{_CHECKS * _CHECK_INTERVAL:g} s{place}: the simulation is waiting",
+        f"{_CHECKS * _CHECK_INTERVAL:g} s{place}: the simulation is waiting{cause}",
     )

@@ -8,12 +8,13 @@ import sys
 import traceback
 from collections.abc import Callable
 from pathlib import Path
-from types import CodeType, ModuleType, SimpleNamespace
+from types import CodeType, FunctionType, ModuleType, SimpleNamespace
 from typing import Any
 
 from bubblesim.messages.names import did_you_mean, unknown_attribute
 from bubblesim.scripting.api.absent_modules import ABSENT
 from bubblesim.scripting.language import script_output
+from bubblesim.scripting.language.script_errors import called_wrongly, missing_module, without_self
 from bubblesim.scripting.language.script_output import Source
 from bubblesim.scripting.language.source import ScriptSourceError, find_file, read_text
 from bubblesim.scripting.threads.script_thread import ScriptThread
@@ -59,6 +60,7 @@ class PythonCode:
         self._parts = self._compile(file, text, [file.parent, *search_paths], including=())
         self._modules = modules
         self._name = name
+        self._folder = file.parent
         script_output.sources[name] = source
         # A real module, because dataclasses and pickle look up the module of a class.
         module = ModuleType(name)
@@ -116,15 +118,22 @@ class PythonCode:
     def place(self, error: BaseException) -> str:
         """Return FILE:LINE where the script failed, or an empty string."""
         frames = _without_our_frames(traceback.TracebackException.from_exception(error)).stack
-        return f"{frames[-1].filename}:{frames[-1].lineno}" if frames else ""
+        return f"{frames[-1].filename}:{frames[-1].lineno}" if frames else _place_of(self._called_wrongly(error))
 
     def report(self, error: BaseException) -> str:
         """Return the error message and the calls."""
-        return "".join(_without_our_frames(traceback.TracebackException.from_exception(error)).format()).rstrip()
+        report = "".join(_without_our_frames(traceback.TracebackException.from_exception(error)).format()).rstrip()
+        return report + self._cure(error)
 
     def reason(self, error: BaseException) -> str:
         """Return the error message, in one line."""
-        return traceback.format_exception_only(error)[-1].strip()
+        return traceback.format_exception_only(error)[-1].strip() + self._cure(error)
+
+    def _cure(self, error: BaseException) -> str:
+        return missing_module(error, self._folder) or without_self(self._called_wrongly(error))
+
+    def _called_wrongly(self, error: BaseException) -> FunctionType | None:
+        return called_wrongly(error, self._globals)
 
     def _require(self, name: str) -> Any:
         """Return the module `sim`, `simROS` or `simROS2`; a version as in 'sim-1' is ignored."""
