@@ -5,6 +5,7 @@ import pytest
 
 from bubblesim.scripting.api.functions import MODULES, functions
 from bubblesim.scripting.api.ik import ik_module  # noqa: F401  # registers modules
+from bubblesim.scripting.api.image import image_module  # noqa: F401  # registers modules
 from bubblesim.scripting.api.ompl import ompl_module  # noqa: F401  # registers modules
 from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # registers modules
 from bubblesim.scripting.api.sim import remote_api_module, sim_module  # noqa: F401  # registers modules
