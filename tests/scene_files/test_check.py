@@ -154,3 +154,40 @@ def test_a_frame_in_which_a_sensor_does_not_measure_is_warned_of(
     cure = "<bubblesim:frame>eye</bubblesim:frame> gives it a frame of its own"
     line = f"warning: /Post/base/eye: /eye is in the frame base, but {why}: {cure}\n"
     assert capfd.readouterr().err == (line if why else "")
+
+
+def test_a_topic_with_a_space_is_a_problem(tmp_path: Path) -> None:
+    file = written(tmp_path, SENSOR.format(kind="imu", more="").replace("/eye<", "/my eye<"))
+    assert problems_of(file) == [
+        "/Post/base/eye: <bubblesim:topic>: invalid topic name '/my eye': it has ' '; use letters, digits, _ and /"
+    ]
+
+
+def test_joints_of_a_plugin_that_the_model_does_not_have_are_a_problem(tmp_path: Path) -> None:
+    wheels = "".join(
+        f'<link name="{side}"/><joint name="{side}_wheel" type="continuous"><parent>base</parent>'
+        f"<child>{side}</child><axis><xyz>0 1 0</xyz></axis></joint>"
+        for side in ("left", "right")
+    )
+    plugin = (
+        '\n<plugin name="drive" filename="libgazebo_ros_diff_drive.so"><legacyMode>false</legacyMode>\n'
+        "<leftJoint>left_whel</leftJoint><rightJoint>right_wheel</rightJoint></plugin>"
+    )
+    model = f'<sdf version="1.9"><model name="Robot"><link name="base"/>{wheels}{plugin}</model></sdf>'
+    file = written(tmp_path, model)
+    assert problems_of(file) == [
+        f"{file}:3: plugin 'drive': <leftJoint> is 'left_whel', which is not a joint of /Robot; "
+        "did you mean left_wheel?"
+    ]
+    assert problems_of(written(tmp_path, model.replace("whel", "wheel"))) == []
+
+
+@pytest.mark.parametrize(("step", "asked"), [("1", True), ("0.001", False)])
+def test_a_physics_step_of_a_second_is_asked_about(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], step: str, asked: bool
+) -> None:
+    physics = f'<physics name="p" type="ode"><max_step_size>{step}</max_step_size></physics>'
+    file = written(tmp_path, f'<sdf version="1.9"><world name="w">{physics}</world></sdf>')
+    assert main([file]) == 0
+    warned = f"warning: {file}: the physics substep is 1 s" in capfd.readouterr().err
+    assert warned is asked

@@ -46,7 +46,9 @@ class Parameters:
 
     @property
     def title(self) -> str:
-        """Return a title for messages: place, name and file name of the plugin."""
+        """Return a title for messages: place, name and file name of the plugin; the element, if there is no plugin."""
+        if not self.plugin.filename:
+            return f"{where(self.plugin)}: <{self.plugin.name}>"
         return f"{where(self.plugin)}: plugin '{self.plugin.name}' ({self.plugin.filename})"
 
     def text(self, name: str, default: str) -> str:

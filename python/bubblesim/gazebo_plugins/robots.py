@@ -132,15 +132,20 @@ class GazeboPlugins:
             plugin.reset()
         except Exception as error:
             context.close()
-            text = f"{error}" if isinstance(error, ParameterError) else f"{parameters.title}: {error}"
-            write_line(sys.stderr, "\n".join(f"error: {line}" for line in text.splitlines()))
+            self._left_out(f"{error}" if isinstance(error, ParameterError) else f"{parameters.title}: {error}")
             return
         self._plugins.append(plugin)
         for hint in parameters.hints:
-            write_line(sys.stderr, f"warning: {hint}")
+            self._hint(hint)
         if unused := parameters.unused():
             text = f"plugin '{description.name}' ({description.filename}) has unknown parameters: {', '.join(unused)}"
             self._unknown.warn(description, text)
+
+    def _left_out(self, problem: str) -> None:
+        write_line(sys.stderr, "\n".join(f"error: {line}" for line in problem.splitlines()))
+
+    def _hint(self, text: str) -> None:
+        write_line(sys.stderr, f"warning: {text}")
 
     def _each(self, phase: str) -> None:
         for plugin in list(self._plugins):

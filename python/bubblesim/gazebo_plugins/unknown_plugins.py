@@ -46,14 +46,3 @@ def plugins_below(world: Any, handle: int) -> Iterator[tuple[int, Any]]:
     for part in [*inner, *world.parts(handle, "sensor")]:
         for plugin in world.plugins(part):
             yield part, plugin
-
-
-def report_unknown_plugins(simulation: Any) -> int:
-    """Warn about all unsupported plugins of a simulation; return the number of warnings."""
-    unknown = UnknownPlugins()
-    for plugin in simulation.plugins:
-        unknown.report(plugin)
-    for model in simulation.world.models:
-        for _, plugin in plugins_below(simulation.world, model):
-            unknown.report(plugin)
-    return unknown.warned

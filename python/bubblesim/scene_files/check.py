@@ -8,7 +8,7 @@ import sys
 from collections.abc import Mapping, Sequence
 
 import bubblesim
-from bubblesim.gazebo_plugins.unknown_plugins import report_unknown_plugins
+from bubblesim.gazebo_plugins.checked_plugins import CheckedPlugins
 from bubblesim.scene_files.sensor_frames import report_sensor_frames
 from bubblesim.scene_files.unit_questions import report_unit_questions
 
@@ -29,10 +29,11 @@ def problems_of(scene: str, arguments: Mapping[str, str] | None = None) -> list[
 
 
 def _findings(scene: str, arguments: Mapping[str, str]) -> tuple[list[str], int]:
-    """Return the problems of a scene, and the number of warnings that were written if there are none."""
+    """Return the problems of a scene, and the number of warnings that were written."""
     try:
         simulation = bubblesim.Simulation(scene, arguments=dict(arguments))
-        warnings = len(simulation.scene.warnings) + report_unknown_plugins(simulation)
+        plugins = CheckedPlugins(bubblesim.Simulation(simulation.scene))  # another one: they command joints
+        warnings = len(simulation.scene.warnings) + plugins.warnings
         warnings += report_unit_questions(simulation) + report_sensor_frames(simulation)
         models = len(simulation.world.models)
         simulation.step(max(1, round(_SECONDS / simulation.time_step)))
@@ -41,7 +42,7 @@ def _findings(scene: str, arguments: Mapping[str, str]) -> tuple[list[str], int]
     except (bubblesim.Diverged, ValueError) as error:
         return [f"{scene}: {error}"], 0
     fallen = models - len(simulation.world.models)
-    return [], warnings + fallen
+    return plugins.problems, warnings + fallen
 
 
 def _summary(warnings: int) -> str:

@@ -15,13 +15,14 @@ import bubblesim
 _FORMATS = {".sdf", ".urdf", ".world", ".xml"}
 _MOST_RADIANS = 2.0 * math.pi + 0.01
 _LARGE = 20.0  # m
+_LONG = 0.05  # s; in such a substep, what falls reaches 0.5 m/s
 _THIN = 1e-5  # kg/m^3, mass over the cube of the length; a rope of 30 m and 1 kg has 4e-5, a robot in millimetres 1e-7
 
 
 def report_unit_questions(simulation: bubblesim.Simulation) -> int:
     """Write a warning for each questionable value to stderr; return how many."""
     count = 0
-    for question in [*_angles(Path(simulation.scene_file)), *_sizes(simulation)]:
+    for question in [*_angles(Path(simulation.scene_file)), *_sizes(simulation), *_steps(simulation)]:
         print(f"warning: {question}", file=sys.stderr)
         count += 1
     return count
@@ -91,6 +92,16 @@ def _sizes(simulation: bubblesim.Simulation) -> Iterator[str]:
                 f"{model}: it is about {length:.3g} m large and has a mass of {mass:.3g} kg; lengths are in metres, "
                 f'a mesh in millimetres needs <scale>0.001 0.001 0.001</scale> (URDF: scale="0.001 0.001 0.001")'
             )
+
+
+def _steps(simulation: bubblesim.Simulation) -> Iterator[str]:
+    """Yield the physics substep if it is long: milliseconds are taken for seconds easily."""
+    substep = simulation.substep
+    if substep > _LONG:
+        yield (
+            f"{simulation.scene_file}: the physics substep is {substep:g} s, in which bodies pass through each other; "
+            "<max_step_size> is in seconds, usual values are 0.001 to 0.01"
+        )
 
 
 def _reach(shape: Any) -> float:

@@ -39,7 +39,7 @@ class NoPlugin:
     file: str  # the sensor's path
     name: str = "bubblesim:topic"
     line: int = 0
-    filename: str = "no plugin"
+    filename: str = ""
     parameters: list[Any] = field(default_factory=list)
 
 
