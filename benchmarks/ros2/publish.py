@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Times the publishing of messages by a script, on ROS 1 and on ROS 2, by rclpy, and by Fast DDS alone.
 
-Each has one subscriber. The script publishes on one side in a step and on the other in the next one: roscpp sends after
-the call, in a thread of its own. rclpy and Fast DDS are timed after the script, in the same order of messages; Fast DDS
-gets ready bytes. A second table compares the encoders of both sides, without a publisher.
+Each has one subscriber. In each step, the script publishes in one of three ways, in turn: roscpp sends after the call,
+in a thread of its own. Fast DDS gets ready bytes, in the process of the node, where the caches are as cold as they are
+for the node. rclpy is timed after the script. A second table compares the encoders of both sides, without a publisher.
 
 Needs a build with ROS 2 and the tests' environment with rclpy (scripts/setup --with ros2 --with tests):
 
     source scripts/environment/activate.bash && cmake --build .ws/build/bubblesim --target fast_dds_alone
-    python3 benchmarks/ros2/publish.py
+    PYTHONPATH=.ws/build/bubblesim/benchmarks/ros2:$PYTHONPATH python3 benchmarks/ros2/publish.py
 """
 
 from __future__ import annotations
@@ -32,7 +32,6 @@ ROOT = Path(__file__).resolve().parents[2]
 PEERS = ROOT / ".ws" / "ros2_peers" / "bin" / "python"
 DOMAIN = "87"
 ROUNDS = 300
-ALONE = ROOT / ".ws" / "devel" / "lib" / "bubblesim" / "fast_dds_alone"
 
 # By type: the message, as code that both sides understand; `np` is numpy.
 MESSAGES = {
@@ -48,26 +47,43 @@ MESSAGES = {
 SCRIPT = """
 import json
 import time
+import fast_dds_alone
 import numpy as np
+from bubblesim import _core
 
 MESSAGES = {messages}
+
+def ready(kind):
+    cdr = _core.messages.encode_ros2(kind, MESSAGES[kind])
+    return fast_dds_alone.Publisher('/dds/' + kind.split('/')[1], kind, cdr)
 
 def sysCall_init():
     self.times = {{}}
     self.one = {{kind: simROS.advertise('/one/' + kind.split('/')[1], kind, 10) for kind in MESSAGES}}
     self.two = {{kind: simROS2.createPublisher('/two/' + kind.split('/')[1], kind, 10) for kind in MESSAGES}}
+    self.alone = {{kind: ready(kind) for kind in MESSAGES}}
     self.step = 0
 
+def all_have_subscribers():
+    return (all(map(simROS.wantsMessages, self.one.values())) and all(map(simROS2.wantsMessages, self.two.values()))
+            and all(each.has_subscriber() for each in self.alone.values()))
+
+def time_of(way, kind, message):
+    if way == 'Fast DDS':
+        return self.alone[kind].write()
+    module, publisher = (simROS, self.one[kind]) if way == 'ROS 1' else (simROS2, self.two[kind])
+    begin = time.perf_counter()
+    module.publish(publisher, message)
+    return time.perf_counter() - begin
+
 def sysCall_sensing():
-    if not all(map(simROS.wantsMessages, self.one.values())) or not all(map(simROS2.wantsMessages, self.two.values())):
+    if not all_have_subscribers():
         return
     self.step += 1
-    name, module, publishers = (('ROS 1', simROS, self.one), ('ROS 2', simROS2, self.two))[self.step % 2]
+    way = ('ROS 1', 'ROS 2', 'Fast DDS')[self.step % 3]
     for kind, message in MESSAGES.items():
-        begin = time.perf_counter()
-        module.publish(publishers[kind], message)
-        self.times.setdefault(name + ' ' + kind, []).append(time.perf_counter() - begin)
-    if self.step == {rounds} * 2:
+        self.times.setdefault(way + ' ' + kind, []).append(time_of(way, kind, message))
+    if self.step == {rounds} * 3:
         medians = {{name: 1e6 * float(np.median(each)) for name, each in self.times.items()}}
         print('times', json.dumps(medians), flush=True)
         sim.stopSimulation()
@@ -133,16 +149,6 @@ def code(template: str, **more: object) -> str:
     return template.format(messages=messages, rounds=ROUNDS, **more)
 
 
-def ready_bytes(folder: Path) -> list[str]:
-    """Write the CDR of each message to a file; return the arguments for fast_dds_alone."""
-    arguments = []
-    for kind, text in MESSAGES.items():
-        file = folder / kind.replace("/", "_")
-        file.write_bytes(_core.messages.encode_ros2(kind, eval(text, {"np": np})))
-        arguments.append(f"{kind}={file}")
-    return arguments
-
-
 def encoding_time(encode: Callable[[str, object], bytes], kind: str, message: object) -> float:
     """Return the microseconds of a call."""
     calls = 2000 if len(encode(kind, message)) < 10000 else 50
@@ -188,11 +194,9 @@ def main() -> None:
         assert node.stdout is not None
         ours = next(json.loads(found[1]) for line in node.stdout if (found := re.search(r"times (\{.*\})", line)))
         rclpys = json.loads(start(str(PEERS), str(rclpy), "publisher", env=alone).communicate()[0])
-        written = start(str(ALONE), str(ROUNDS), *ready_bytes(Path(folder)), env=env).communicate()[0]
-    alone_times = {kind: float(time) for kind, time in map(str.split, written.splitlines())}
     print(f"{'median, us':24}{'ROS 1':>10}{'ROS 2':>10}{'rclpy':>10}{'Fast DDS':>10}{'ratio':>8}")
     for kind in MESSAGES:
-        one, two, dds = ours[f"ROS 1 {kind}"], ours[f"ROS 2 {kind}"], alone_times[kind]
+        one, two, dds = (ours[f"{way} {kind}"] for way in ("ROS 1", "ROS 2", "Fast DDS"))
         print(f"{kind:24}{one:10.1f}{two:10.1f}{rclpys[kind]:10.1f}{dds:10.1f}{two / dds:8.2f}")
     print_encoders()
 

@@ -83,7 +83,8 @@ struct Ros2Bridge::Impl {
   ros2::NodeParameters parameters{names.full_node(), names.parameters()};
   ros2::Traffic traffic;
   ros2::Inbox inbox{arrivals, traffic};
-  ros2::Topics topics{participant, inbox, traffic};
+  ros2::Outbox outbox;
+  ros2::Topics topics{participant, inbox, outbox, traffic};
   std::unique_ptr<StepService> step_service;  // before the services, which use its queue
   ros2::Services services{participant, guard, arrivals, rosout, options.is_ending};
   EndpointId clock = 0;

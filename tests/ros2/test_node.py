@@ -33,20 +33,6 @@ def test_node_and_types_are_known_by_name(ros2_domain: Domain, ros2_peer: Ros2Pe
     assert graph["topics"]["/clock"]["types"] == ["rosgraph_msgs/msg/Clock"]
 
 
-def test_the_tricycle_of_the_tutorial_drives_by_ros2(ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path: Path) -> None:
-    with Node(ros2_domain.env(), tmp_path / "log", "tricycle", "--ros=2", "--speed=2"):
-        start = ros2_peer.next("/odom", "nav_msgs/msg/Odometry")["pose"]["pose"]["position"]["x"]
-        ros2_peer.publish("/speed", "std_msgs/msg/Float32", {"data": 5.0})
-
-        def has_moved(message: dict[str, Any]) -> bool:
-            return abs(message["pose"]["pose"]["position"]["x"] - start) > 0.5
-
-        ros2_peer.wait_for("/odom", "nav_msgs/msg/Odometry", has_moved, "the tricycle to move")
-        assert ros2_peer.next("/front_sonar", "std_msgs/msg/Float32").keys() == {"data"}
-        info = ros2_peer.next("/camera_info", "sensor_msgs/msg/CameraInfo")
-        assert (len(info["k"]), info["distortion_model"]) == (9, "plumb_bob")
-
-
 def test_the_clock_is_simulation_time(ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path: Path) -> None:
     with Node(ros2_domain.env(), tmp_path / "log", "ball", "--ros=2"):
         ros2_peer.received("/clock", "rosgraph_msgs/msg/Clock", best_effort=True)

@@ -25,20 +25,29 @@ class PublisherEndpoint::Listener final : public dds::DataWriterListener {
   std::atomic<int>& subscribers_;
 };
 
-PublisherEndpoint::PublisherEndpoint(std::string topic, const messages::MessageType& type, const messages::Qos& qos)
-    : topic_(std::move(topic)), type_(type), qos_(qos), listener_(std::make_unique<Listener>(subscribers_)) {}
+PublisherEndpoint::PublisherEndpoint(std::string topic, const messages::MessageType& type, const messages::Qos& qos,
+                                     Outbox& outbox)
+    : topic_(std::move(topic)),
+      type_(type),
+      qos_(qos),
+      outbox_(outbox),
+      listener_(std::make_unique<Listener>(subscribers_)) {}
 
-PublisherEndpoint::~PublisherEndpoint() = default;
+PublisherEndpoint::~PublisherEndpoint() { close(); }
 
-void PublisherEndpoint::publish(messages::WireBuffer message) { write(**writer_, message); }
+void PublisherEndpoint::publish(messages::WireBuffer message) { outbox_.add(outgoing_, std::move(message)); }
 
 void PublisherEndpoint::open(Participant& participant) {
   writer_ = std::make_unique<Writer>(participant, message_topic(topic_, type_), qos_, listener_.get());
+  outgoing_ = std::make_shared<Outgoing>(Outgoing{*writer_, qos_.depth, {}});
 }
 
 void PublisherEndpoint::close() {
+  if (!writer_) return;
   // Reliable subscribers get the last messages, also those that scripts publish in sysCall_cleanup.
-  if (writer_ && subscribers_ > 0) (**writer_).wait_for_acknowledgments(kLastMessages);
+  outbox_.finish(*outgoing_);
+  outgoing_.reset();
+  if (subscribers_ > 0) (**writer_).wait_for_acknowledgments(kLastMessages);
   writer_.reset();
   subscribers_ = 0;
 }

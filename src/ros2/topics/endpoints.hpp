@@ -9,19 +9,20 @@
 #include "bubblesim/messages/bridge.hpp"
 #include "dds/participant.hpp"
 #include "topics/inbox.hpp"
+#include "topics/outbox.hpp"
 
 namespace bubblesim::ros2 {
 
 class PublisherEndpoint {
  public:
-  PublisherEndpoint(std::string topic, const messages::MessageType& type, const messages::Qos& qos);
+  PublisherEndpoint(std::string topic, const messages::MessageType& type, const messages::Qos& qos, Outbox& outbox);
   ~PublisherEndpoint();
   PublisherEndpoint(const PublisherEndpoint&) = delete;
   PublisherEndpoint& operator=(const PublisherEndpoint&) = delete;
 
   const std::string& topic() const { return topic_; }
   const messages::MessageType& type() const { return type_; }
-  bool wants_messages() const { return !aside_ && writer_ && (qos_.transient_local || subscribers_ > 0); }
+  bool wants_messages() const { return !aside_ && outgoing_ && (qos_.transient_local || subscribers_ > 0); }
   int subscribers() const { return subscribers_; }
   /// While it is aside, it publishes nothing.
   void set_aside(bool aside) { aside_ = aside; }
@@ -37,10 +38,12 @@ class PublisherEndpoint {
   const std::string topic_;
   const messages::MessageType& type_;
   const messages::Qos qos_;
+  Outbox& outbox_;
   bool aside_ = false;
   std::atomic<int> subscribers_{0};
   std::unique_ptr<Listener> listener_;
-  std::unique_ptr<Writer> writer_;  // null while it is closed
+  std::unique_ptr<Writer> writer_;      // null while it is closed
+  std::shared_ptr<Outgoing> outgoing_;  // likewise
 };
 
 class SubscriberEndpoint {

@@ -11,7 +11,7 @@ using messages::MessageType;
 
 void Topics::advertise(EndpointId id, const std::string& topic, const MessageType& type, const messages::Qos& qos) {
   endpoints_.check_type_on(topic, type);
-  const auto publisher = std::make_shared<PublisherEndpoint>(topic, type, qos);
+  const auto publisher = std::make_shared<PublisherEndpoint>(topic, type, qos, outbox_);
   endpoints_.publishers.emplace(id, publisher);
   settle(topic);  // closes endpoints of another type first: DDS knows one type of a topic
   publisher->open(participant_);

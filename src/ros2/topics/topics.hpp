@@ -12,8 +12,8 @@ namespace bubblesim::ros2 {
 /// The publishers and subscribers of a node; see messages::Bridge. Names are full ones. For the simulation's thread.
 class Topics {
  public:
-  Topics(Participant& participant, Inbox& inbox, Traffic& traffic)
-      : participant_(participant), inbox_(inbox), traffic_(traffic) {}
+  Topics(Participant& participant, Inbox& inbox, Outbox& outbox, Traffic& traffic)
+      : participant_(participant), inbox_(inbox), outbox_(outbox), traffic_(traffic) {}
 
   /// Throws std::invalid_argument if the topic has another type in this node.
   void advertise(messages::EndpointId id, const std::string& topic, const messages::MessageType& type,
@@ -37,6 +37,7 @@ class Topics {
 
   Participant& participant_;
   Inbox& inbox_;
+  Outbox& outbox_;
   Traffic& traffic_;
   TopicEndpoints<PublisherEndpoint, SubscriberEndpoint> endpoints_;  // what is off is closed
 };

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/outbox.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "quiet_thread.hpp"
+
+namespace bubblesim::ros2 {
+namespace {
+
+constexpr std::chrono::milliseconds kMostForPlace{10};   // for a place: a subscriber that is stopped holds up writes
+constexpr std::chrono::milliseconds kMostFinishing{50};  // for the last messages
+
+}  // namespace
+
+Outbox::Outbox() : thread_(start_without_signals([this] { run(); })) {}
+
+Outbox::~Outbox() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  added_.notify_one();
+  thread_.join();
+}
+
+void Outbox::add(const std::shared_ptr<Outgoing>& outgoing, messages::WireBuffer message) {
+  {
+    std::unique_lock lock(mutex_);
+    const auto has_place = [&] { return outgoing->depth == 0 || outgoing->messages.size() < outgoing->depth; };
+    if (has_place() || written_.wait_for(lock, kMostForPlace, has_place)) {
+      order_.push_back(outgoing);
+    } else {
+      outgoing->messages.pop_front();
+    }
+    outgoing->messages.push_back(std::move(message));
+  }
+  added_.notify_one();
+}
+
+void Outbox::finish(const Outgoing& outgoing) {
+  std::unique_lock lock(mutex_);
+  const auto is_in_hand = [&] { return in_hand_ == &outgoing; };
+  written_.wait_for(lock, kMostFinishing, [&] { return outgoing.messages.empty() && !is_in_hand(); });
+  order_.erase(std::remove_if(order_.begin(), order_.end(), [&](const auto& each) { return each.get() == &outgoing; }),
+               order_.end());
+  written_.wait(lock, [&] { return !is_in_hand(); });
+}
+
+void Outbox::run() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    added_.wait(lock, [this] { return ending_ || !order_.empty(); });
+    if (ending_) return;
+    const std::shared_ptr<Outgoing> outgoing = std::move(order_.front());
+    order_.pop_front();
+    in_hand_ = outgoing.get();
+    {
+      messages::WireBuffer message = std::move(outgoing->messages.front());
+      outgoing->messages.pop_front();
+      lock.unlock();
+      write(*outgoing->writer, message);
+    }
+    lock.lock();
+    in_hand_ = nullptr;
+    written_.notify_all();
+  }
+}
+
+}  // namespace bubblesim::ros2
