@@ -130,6 +130,45 @@ def test_a_second_ctrl_c_while_python_ends_changes_nothing(tmp_path: Path) -> No
         assert node.output.endswith("deleted\n")
 
 
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_node_of_rospy_in_a_script_leaves_it_the_signals(
+    roscore: RosCore, tmp_path: Path, number: signal.Signals
+) -> None:
+    code = """
+        import rospy
+        def sysCall_init():
+            rospy.init_node('mine')
+            print('begun')
+        def sysCall_cleanup(): print('cleanup')
+    """
+    script = write(tmp_path / "script.py", code)
+    with Node(roscore.env, tmp_path / "log", "ball", "--child-script", f"/Ball={script}") as node:
+        node.wait_for_output("begun")
+        assert "/mine" in roscore.nodes()
+        node.wait_until_ready(roscore)
+        begin = time.monotonic()
+        assert node.end(number) == 0
+        assert time.monotonic() - begin < LIMIT + SLACK
+        assert node.output.count("warning: the handler of ") == 1, node.output  # rospy sets two
+        assert "SIGTERM that rospy.core sets is ignored, because the simulator handles this signal" in node.output
+        assert node.output.endswith("cleanup\n")
+
+
+def test_a_handler_of_a_script_is_ignored_and_others_are_set(tmp_path: Path) -> None:
+    code = """
+        import os, signal
+        def sysCall_init():
+            for number in (signal.SIGINT, signal.SIGHUP, signal.SIGURG, signal.SIGUSR1):
+                signal.signal(number, lambda number, frame: print('handled', number))
+            os.kill(os.getpid(), signal.SIGUSR1)
+            os.kill(os.getpid(), signal.SIGINT)
+    """
+    script = write(tmp_path / "script.py", code)
+    run = run_sim("ball", "--no-ros", "--child-script", f"/Ball={script}")
+    assert (run.returncode, run.stdout) == (0, f"handled {int(signal.SIGUSR1)}\n"), run.stderr
+    assert "warning: the handler of SIGINT that child_script_Ball sets is ignored" in run.stderr
+
+
 def handles(node: Node, number: signal.Signals) -> bool:
     """Return whether the node has a handler for the signal, which it sets when its scene is loaded."""
     status = Path(f"/proc/{node.process.pid}/status").read_text()

@@ -7,6 +7,8 @@ import signal
 from collections.abc import Callable
 from types import FrameType
 
+from bubblesim.scripting.host import kept_signals
+
 allowed = False
 """Whether script code runs, so that KeyboardInterrupt may be raised."""
 
@@ -26,6 +28,7 @@ def install(interruption: int) -> None:
     """Install signal handlers that raise KeyboardInterrupt in the running script: at its end, by this signal."""
     signal.signal(interruption, _interrupt)
     signal.signal(_WAKE_UP, _break_off_for_stop)
+    kept_signals.install(interruption, _WAKE_UP)
 
 
 def break_off(thread: int, still_needed: Callable[[], bool]) -> None:
