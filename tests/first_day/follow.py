@@ -121,6 +121,7 @@ def close(terminals: list[Terminal]) -> None:
 
 def main() -> int:
     """Follow the pages; the argument is what a new terminal needs first, such as 'source .ws/devel/setup.bash'."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # jobs in the background ignore it
     setup = sys.argv[1] if len(sys.argv) > 1 else ":"
     with tempfile.TemporaryDirectory(prefix="first-day-") as folder:
         failures = [failure for page in PAGES for failure in follow(page, Path(folder), setup)]
