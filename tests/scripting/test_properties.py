@@ -135,5 +135,10 @@ assert sim.getObjectSpecialProperty(car) & sim.objectspecialproperty_collidable 
 sim.setIntProperty(sim.handle_app, 'signal.count', 4)
 assert sim.getInt32Signal('count') == 4 and sim.getProperty(sim.handle_app, 'platform') == sim.platform_linux
 assert car in sim.getProperty(sim.handle_scene, 'objects')
+sim.setColorProperty(sim.handle_scene, 'ambientLight', [0.1, 0.2, 0.3])
+near(sim.getColorProperty(sim.handle_scene, 'ambientLight'), [0.1, 0.2, 0.3])
+turns = [sim.getQuaternionProperty(sim.handle_app, 'randomQuaternion') for _ in range(2)]
+near([sum(number * number for number in turn) for turn in turns], [1.0, 1.0])
+assert turns[0] != turns[1] and 0 <= sim.getFloatProperty(sim.handle_app, 'randomFloat') < 1
 """
     check(tmp_path, body)

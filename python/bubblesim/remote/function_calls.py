@@ -26,6 +26,7 @@ def carry_out(request: protocol.Request, sim: RemoteSim, client: RemoteClient) -
     :raises Exception: what the function raises, or that there is no such function.
     """
     module, _, name = request.function.partition(".")
+    module = module.partition("-")[0]  # without a version, such as that of 'sim-2'
     if module == "zmqRemoteApi" and name in ("require", "info"):
         wanted = request.arguments[0] if request.arguments else ""
         bare = wanted.partition("-")[0] if isinstance(wanted, str) else ""  # without a version

@@ -16,7 +16,7 @@ from bubblesim.scripting.api.functions import variant_of_module
 from bubblesim.scripting.api.ik.ik_module import SimIk
 from bubblesim.scripting.api.kinds import Bytes
 from bubblesim.scripting.api.ompl.ompl_module import SimOmpl
-from bubblesim.scripting.api.sim.scene_files import stem
+from bubblesim.scripting.api.sim.scene_files import stem, stem_with_folder
 from bubblesim.scripting.api.sim.sim_module import SimApi
 from bubblesim.scripting.api.ui.ui_module import SimUi
 from bubblesim.scripting.api.waiting_functions import Waiting
@@ -152,7 +152,8 @@ class RemoteSim(SimApi):
         if not file:
             return self._change_scene(Scene.empty())
         folders = self._caller.server.folders
-        places = [folder / f"{stem(file)}{suffix}" for suffix in (".sdf", ".ttt") for folder in folders]
+        names = dict.fromkeys((stem(file), stem_with_folder(file)))
+        places = [folder / f"{name}{suffix}" for suffix in (".sdf", ".ttt") for name in names for folder in folders]
         own = Path(self._simulation.scene_file)
         if stem(file) == own.stem:  # also of another format than .sdf
             places.insert(0, own)

@@ -3,13 +3,13 @@
 #include "load/foreign_models.hpp"
 
 #include <algorithm>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/scene_loader.hpp"
+#include "load/included_places.hpp"
 #include "load/ttt/write_scene.hpp"
 
 namespace bubblesim {
@@ -69,48 +69,14 @@ class Renaming {
   const std::string& suffix_;
 };
 
-/// Calls `visit` for the place of each part of the models that has one, with the part's alias.
-template <class Models, class Visit>
-void visit_places(Models& models, const Visit& visit) {
-  const auto visit_all = [&visit](auto& parts) {
-    for (auto& part : parts) {
-      if (part.place) visit(*part.place, part.alias);
-    }
-  };
-  for (auto& model : models) {
-    for (auto& link : model.links) visit_all(link.sensors);
-    for (auto& joint : model.joints) visit_all(joint.sensors);
-    visit_all(model.links);
-    visit_all(model.joints);
-    visit_all(model.frames);
-  }
-}
-
-/// The first id above those of all places of a scene.
-int free_place(const SceneDescription& scene) {
-  int next = 0;
-  const auto above = [&next](const TreePlace& place, const std::string&) { next = std::max(next, place.id + 1); };
-  visit_places(scene.models, above);
-  for (const FrameDescription& frame : scene.frames) {
-    if (frame.place) above(*frame.place, frame.alias);
-  }
-  return next;
-}
-
 }  // namespace
 
 void include_foreign_models(const ForeignInclude& include, SceneDescription& scene, std::vector<Problem>& warnings) {
   std::vector<ModelDescription> models = load_foreign_models(include.file, "_" + include.name, &warnings);
-  // Places refer to each other by numbers that are unique in their file only.
-  std::map<int, int> ids;
-  int next = free_place(scene);
-  visit_places(models, [&](const TreePlace& place, const std::string&) { ids.emplace(place.id, next++); });
-  visit_places(models, [&](TreePlace& place, std::string& alias) {
-    const auto parent = ids.find(place.parent);
-    if (parent == ids.end() && !include.alias.empty()) alias = include.alias;
-    place.id = ids.at(place.id);
-    place.parent = parent == ids.end() ? -1 : parent->second;
-  });
+  std::vector<ModelDescription*> included;
+  for (ModelDescription& model : models) included.push_back(&model);
+  if (!include.alias.empty()) set_top_alias(included, include.alias);
+  renumber_places(included, scene);
   for (ModelDescription& model : models) {
     model.pose = include.pose * model.pose;
     for (FrameDescription& frame : model.frames) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <set>
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/scene_loader.hpp"
@@ -124,6 +125,41 @@ TEST_F(ModelIncludes, ProblemsInsideAModelAreReportedInItsFile) {
         "<sdf version='1.9'><model name='robot'><link name='base'><inertial><mass>-1</mass></inertial>\n"
         "</link></model></sdf>");
   EXPECT_NE(reported_for("<include><uri>near</uri></include>").find("near/model.sdf:1"), std::string::npos);
+}
+
+/// Two objects with places: a base and, below it, a tip.
+const std::string kModelWithPlaces =
+    "<sdf version='1.9' xmlns:bubblesim='https://bubblesim'><model name='arm'>"
+    "<bubblesim:is_object>false</bubblesim:is_object><link name='base'><bubblesim:alias>Arm</bubblesim:alias>"
+    "<bubblesim:place><id>5</id></bubblesim:place></link><bubblesim:object name='tip'><kind>dummy</kind><link>base</link>"
+    "<bubblesim:place><id>7</id><parent>5</parent></bubblesim:place></bubblesim:object></model></sdf>";
+
+TEST_F(ModelIncludes, OfOneModelWithPlacesHaveATreeEach) {
+  write("scene/arm.sdf", kModelWithPlaces);
+  const SceneDescription scene = load(
+      "<include><uri>arm.sdf</uri><name>left</name></include><include><uri>arm.sdf</uri><name>right</name></include>"
+      "<bubblesim:object name='mark'><kind>dummy</kind><bubblesim:place><id>8</id></bubblesim:place></bubblesim:object>");
+  ASSERT_EQ(scene.models.size(), 2u);
+  const auto base = [&](int i) { return *scene.models[i].links[0].place; };
+  const auto tip = [&](int i) { return *scene.models[i].frames[0].place; };
+  EXPECT_EQ(tip(0).parent, base(0).id);
+  EXPECT_EQ(tip(1).parent, base(1).id);
+  EXPECT_EQ(base(0).parent, -1);
+  EXPECT_EQ(base(1).parent, -1);
+  EXPECT_EQ((std::set<int>{base(0).id, tip(0).id, base(1).id, tip(1).id, 8}).size(), 5u);
+}
+
+TEST_F(ModelIncludes, GiveNameAndScriptOfAModelThatIsNoObjectToItsBase) {
+  write("scene/arm.sdf", kModelWithPlaces);
+  write("scene/move.py", "");
+  const SceneDescription scene = load(
+      "<include><uri>arm.sdf</uri><name>left</name>"
+      "<bubblesim:child_script>move.py</bubblesim:child_script></include>");
+  const LinkDescription& base = scene.models[0].links[0];
+  EXPECT_EQ(base.alias, "left");
+  EXPECT_EQ(base.place->child_script.filename(), "move.py");
+  EXPECT_TRUE(scene.models[0].child_script.empty());
+  EXPECT_TRUE(scene.models[0].frames[0].alias.empty());
 }
 
 }  // namespace

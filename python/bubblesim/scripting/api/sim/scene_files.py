@@ -27,8 +27,8 @@ class SceneFileFunctions(CreatedSensorFunctions):
         """Stop the simulation and load another scene; return 1. An empty name loads the empty scene.
 
         It is searched as NAME.sdf, then as NAME.ttt, in the folder of the first scene, the folder in which the node was
-        started, and the folders of scenes. All handles become invalid. If the file has errors, the present scene stays.
-        For remote clients only.
+        started, and the folders of scenes, also with the folder that the path gives, such as messaging/NAME.sdf. All
+        handles become invalid. If the file has errors, the present scene stays. For remote clients only.
         """
         raise RuntimeError("sim.loadScene needs a running node")
 
@@ -106,6 +106,12 @@ class SceneFileFunctions(CreatedSensorFunctions):
             if given.suffix in _FOREIGN:
                 searched.insert(1, given)
         return searched
+
+
+def stem_with_folder(file: str) -> str:
+    """Return the stem after the name of its folder, such as 'messaging/images', or the stem alone."""
+    folder = Path(file.replace("\\", "/")).parent.name
+    return stem(file) if folder in ("", "..") else f"{folder}/{stem(file)}"
 
 
 def stem(file: str) -> str:

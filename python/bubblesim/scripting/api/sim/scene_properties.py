@@ -3,7 +3,18 @@
 
 from __future__ import annotations
 
+import math
+from typing import Any
+
 from bubblesim.scripting.api.sim.property_kinds import Property
+
+
+def _random_quaternion(sim: Any) -> list[float]:
+    """Return a rotation of uniform distribution (Shoemake, "Uniform Random Rotations", 1992)."""
+    size, first, second = sim.getRandom(), 2 * math.pi * sim.getRandom(), 2 * math.pi * sim.getRandom()
+    near, far = math.sqrt(1 - size), math.sqrt(size)
+    return [near * math.sin(first), near * math.cos(first), far * math.sin(second), far * math.cos(second)]
+
 
 OF_SCENE: dict[str, Property] = {
     "gravity": Property(
@@ -29,6 +40,10 @@ OF_SCENE: dict[str, Property] = {
     "selection": Property(
         lambda sim, h: sim.getObjectSel(), lambda sim, h, v: sim.setObjectSel(v), leads_to_objects=True
     ),
+    "ambientLight": Property(
+        lambda sim, h: sim.getArrayParam(sim.arrayparam_ambient_light),
+        lambda sim, h, v: sim.setArrayParam(sim.arrayparam_ambient_light, v),
+    ),
     "simulationTimeStep": Property(lambda sim, h: sim.getSimulationTimeStep()),
 }
 OF_APP: dict[str, Property] = {
@@ -39,4 +54,6 @@ OF_APP: dict[str, Property] = {
     "appPath": Property(lambda sim, h: sim.getStringParam(sim.stringparam_application_path)),
     "tempPath": Property(lambda sim, h: sim.getStringParam(sim.stringparam_tempdir)),
     "systemTime": Property(lambda sim, h: sim.getSystemTime()),
+    "randomFloat": Property(lambda sim, h: sim.getRandom()),
+    "randomQuaternion": Property(lambda sim, h: _random_quaternion(sim)),
 }

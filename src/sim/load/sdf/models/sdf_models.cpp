@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "load/included_places.hpp"
 #include "load/sdf/elements/own_elements.hpp"
 #include "load/sdf/models/sdf_joints.hpp"
 #include "load/sdf/models/sdf_links.hpp"
@@ -194,6 +195,7 @@ ModelDescription read_model(const SdfElement& model, const Frames& frames, const
     add_flattened_models(frames, description);
     description.is_object = model.flag("bubblesim:is_object");
     description.frames = read_objects(model, path, context);
+    if (!description.is_object) give_to_top(description);
   }
   return description;
 }

@@ -10,6 +10,7 @@
 
 #include "bubblesim/nearest_names.hpp"
 #include "load/foreign_models.hpp"
+#include "load/included_places.hpp"
 #include "load/sdf/documents/documents.hpp"
 #include "load/sdf/elements/own_elements.hpp"
 #include "load/sdf/models/frames.hpp"
@@ -146,6 +147,7 @@ std::optional<double> read_world(const SdfElement& world, SceneDescription& scen
   read_environment(world, frames, scene.environment, context);
   read_models(world, frames, scene, context);
   scene.frames = read_objects(world, "", context);
+  separate_included_places(scene);
   read_foreign_models(world, frames, scene, context);
   apply_state(world, scene.models, context);
   return substeps;
