@@ -2,11 +2,14 @@
 """bubblesim.Simulation from Python: stepping, objects, errors."""
 
 import gc
+import re
 import subprocess
 import threading
 import time
 import weakref
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -34,6 +37,25 @@ def test_time_advances_by_steps(tricycle: bubblesim.Simulation) -> None:
     tricycle.step(19)
     tricycle.step(0)
     assert tricycle.time == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("steps", "error"), [(-1, ValueError), (2**64, ValueError), (1.5, TypeError), ("2", TypeError)]
+)
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: bubblesim.Simulation("ball"),
+        lambda: bubblesim.Batch("ball", 1),
+        lambda: bubblesim.Runner(bubblesim.Simulation("ball")),
+    ],
+)
+def test_what_is_no_number_of_steps_is_refused(make: Callable[[], Any], steps: Any, error: type[Exception]) -> None:
+    text = (
+        f"steps={steps!r} is not a number of simulation steps: pass a whole number, 0 or more; for a time in seconds, "
+    )
+    with pytest.raises(error, match=re.escape(text)):
+        make().step(steps=steps)
 
 
 def test_poses_are_arrays_of_doubles(tricycle: bubblesim.Simulation) -> None:

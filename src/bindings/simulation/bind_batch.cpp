@@ -14,6 +14,7 @@
 #include "bubblesim/error.hpp"
 #include "scene/loaded_scene.hpp"
 #include "simulation/random_quantities.hpp"
+#include "step_count.hpp"
 
 namespace bubblesim::bindings {
 namespace {
@@ -43,7 +44,7 @@ class PythonBatch {
   const py::array& observed() const { return observed_; }
   const py::dtype& type() const { return type_; }
 
-  py::array step(const std::optional<py::array>& actions, std::size_t steps) {
+  py::array step(const std::optional<py::array>& actions, StepCount steps) {
     py::array row_major;
     const void* commands = nullptr;
     if (actions) {
@@ -54,7 +55,7 @@ class PythonBatch {
     void* out = observed_.mutable_data();
     {
       const py::gil_scoped_release others_may_run;
-      batch_->step(commands, steps, out);
+      batch_->step(commands, steps.value, out);
     }
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     return observed_;

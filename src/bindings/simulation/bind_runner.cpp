@@ -17,6 +17,7 @@
 #include "bubblesim/descriptor_watch.hpp"
 #include "bubblesim/runner.hpp"
 #include "guarded.hpp"
+#include "step_count.hpp"
 
 namespace bubblesim::bindings {
 namespace {
@@ -59,13 +60,13 @@ void set_synchronous(Runner& runner, bool synchronous, bool wait) {
   if (wait) wait_for(std::move(result));
 }
 
-std::optional<double> step_runner(Runner& runner, std::uint64_t steps, bool wait) {
+std::optional<double> step_runner(Runner& runner, StepCount steps, bool wait) {
   if (!wait) {
-    runner.request_steps(steps);
+    runner.request_steps(steps.value);
     return std::nullopt;
   }
   check_can_wait(runner);
-  return wait_for(runner.step(steps));
+  return wait_for(runner.step(steps.value));
 }
 
 void set_speed(Runner& runner, double speed, bool wait) {

@@ -21,6 +21,7 @@
 #include "object_view.hpp"
 #include "scene/loaded_scene.hpp"
 #include "simulation/random_quantities.hpp"
+#include "step_count.hpp"
 
 namespace bubblesim::bindings {
 namespace {
@@ -78,11 +79,11 @@ py::array_t<float> vertices(const CollisionShape& shape) {
 }
 
 /// Steps without the GIL, but checks Python's signals regularly so that Ctrl-C ends a long call.
-void step_simulation(Simulation& simulation, std::uint64_t steps) {
+void step_simulation(Simulation& simulation, StepCount steps) {
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::milliseconds kBetweenSignals{50};
   Clock::time_point look = Clock::now() + kBetweenSignals;
-  for (std::uint64_t done = 0; done < steps; ++done) {
+  for (std::uint64_t done = 0; done < steps.value; ++done) {
     simulation.step();
     if (Clock::now() < look) continue;
     const py::gil_scoped_acquire gil;
