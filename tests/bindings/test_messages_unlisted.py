@@ -130,6 +130,20 @@ def test_one_line_states_where_a_type_is_from_and_how_to_list_it(
     )
 
 
+def test_an_installation_needs_no_lists(
+    package: Package, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("bubblesim.messages.runtime.project_root", lambda: None)
+    folder = package("unlisted_installed", {"msg/Cell.msg": "int8 a\n"})
+    codec.encode("unlisted_installed/Cell", {})
+    assert capfd.readouterr().err == (
+        f"info: unlisted_installed/Cell is not listed; using its definition from {folder}/msg/Cell.msg\n"
+    )
+    assert error("quantum_teleport_msgs/Beam").endswith(
+        "; to add it, install its package, or source the setup.bash of the workspace that has it"
+    )
+
+
 def test_a_type_that_appears_later_is_found(package: Package) -> None:
     assert "no definition was found on this machine" in error("unlisted_late/Cell")
     package("unlisted_late", {"msg/Cell.msg": "int8 a\n"})

@@ -88,7 +88,7 @@ def type_in(command: str, folder: Path, setup: str) -> Terminal:
     """Open a terminal with a command."""
     log = folder / f"{len(list(folder.glob('*.log')))}.log"
     typed = ["script", "-qefc", f"bash -c '{command}'", "/dev/null"] if "teleop" in command else ["bash", "-c", command]
-    line = f'{setup}\nexec "$@"'
+    line = f'typed=("$@"); set --; {setup}\nexec "${{typed[@]}}"'  # setup.bash reads the arguments of its caller
     with log.open("wb") as output:
         process = subprocess.Popen(
             ["bash", "-c", line, "bash", *typed],

@@ -37,6 +37,13 @@ def test_a_command_that_fails_is_reported(tmp_path: Path, monkeypatch: pytest.Mo
     assert failure == "page.md: echo seen; false\nseen\n"
 
 
+def test_a_new_terminal_reads_no_arguments_of_a_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "setup.bash").write_text("[[ $# -eq 0 ]] || exit 1\n")
+    (tmp_path / "page.md").write_text("```bash\ntrue --help\n```\n")
+    monkeypatch.setattr("follow.REPOSITORY", tmp_path)
+    assert follow("page.md", tmp_path, f"source {tmp_path}/setup.bash") == []
+
+
 @pytest.mark.parametrize("arguments", [["--bogus"], ["a", "b"]])
 def test_bad_usage_is_explained(arguments: list[str]) -> None:
     run = subprocess.run(

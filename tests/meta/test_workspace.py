@@ -97,6 +97,12 @@ def test_add_message_states_when_there_is_nothing_to_build(unbuilt: Workspace) -
     assert "is not in a catkin workspace" in result.stdout
 
 
+def test_add_message_states_that_an_installation_needs_no_lists(tmp_path: Path, unbuilt: Workspace) -> None:
+    result = unbuilt.add_message("std_msgs/Bool", "--project", str(tmp_path / "none"))
+    assert result.returncode == 2
+    assert "an installed bubblesim needs no lists: it reads the definitions of types" in result.stdout
+
+
 def test_add_message_states_how_the_build_failed(tmp_path: Path, unbuilt: Workspace) -> None:
     (tmp_path / ".catkin_workspace").touch()
     unbuilt.write("bubblesim/CMakeLists.txt", "nonsense(")

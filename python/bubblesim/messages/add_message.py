@@ -24,7 +24,11 @@ def main(arguments: list[str]) -> int:
     options = _parse_arguments(arguments)
     if options.project is None or not (options.project / "meta").is_dir():
         return _fail(
-            ["bubblesim's sources, which contain the lists, are not found; give their folder with --project DIR"]
+            [
+                "bubblesim's sources, which contain the lists, are not found, and an installed bubblesim needs no "
+                "lists: it reads the definitions of types, also of a workspace whose setup.bash is sourced. To list "
+                "them in a clone: --project DIR"
+            ]
         )
     project: Path = options.project.absolute()
     problems: list[str] = []

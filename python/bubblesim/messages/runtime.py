@@ -15,7 +15,7 @@ from bubblesim import _core
 from bubblesim._core.messages import RosVersion
 from bubblesim.messages.kinds import KINDS, has_header
 from bubblesim.messages.names import did_you_mean, nearest_names, type_name
-from bubblesim.messages.packages import PackageIndex, machine_index
+from bubblesim.messages.packages import PackageIndex, machine_index, project_root
 from bubblesim.messages.ros2_definitions import KINDS as ROS2_KINDS
 from bubblesim.messages.ros2_definitions import Ros2Message
 from bubblesim.messages.ros2_specs import Ros2Specs, own_definitions
@@ -186,6 +186,8 @@ def _unknown(specs: Specs, name: str, kind: str) -> str:
     unknown = f"{name} is not a {what} type of this build, and no definition was found on this machine"
     if hint := did_you_mean(_similar(specs, name, kind)):
         return unknown + hint  # with a similar name, how to add the type is not useful
+    if project_root() is None:
+        return f"{unknown}; to add it, install its package, or source the setup.bash of the workspace that has it"
     return (
         f"{unknown}; to add it, install its package or add that to the workspace, and list it in "
         f"meta/{what}s.txt: rosrun bubblesim add_message {name}"
@@ -198,9 +200,5 @@ def _similar(specs: Specs, name: str, kind: str) -> list[str]:
 
 
 def _report_unlisted(name: str, file: Path) -> None:
-    print(
-        f"info: {name} is not listed; using its definition from {file}. "
-        f"List it with: rosrun bubblesim add_message {name}",
-        file=sys.stderr,
-        flush=True,
-    )
+    how = f". List it with: rosrun bubblesim add_message {name}" if project_root() else ""  # lists are of the sources
+    print(f"info: {name} is not listed; using its definition from {file}{how}", file=sys.stderr, flush=True)
