@@ -66,6 +66,15 @@ TEST_F(SceneFiles, OfAMeshAreFoundByEachKindOfUri) {
   }
 }
 
+TEST_F(SceneFiles, OfAPackageAreFoundAsThoseOfAModel) {
+  write("models/thing/meshes/a.stl", kStl);
+  ::setenv("GAZEBO_MODEL_PATH", (folder_ / "models").c_str(), 1);
+  for (const std::string uri : {"package://thing/meshes/a.stl", "package:///thing/meshes/a.stl"}) {
+    const SceneDescription scene = read_scene(write("scene/s.sdf", model_with(mesh(uri))));
+    EXPECT_EQ(scene.models.at(1).links.at(0).collisions.size(), 1U) << uri;
+  }
+}
+
 TEST_F(SceneFiles, OfAModelAreFoundBesideItWhateverItsFolderIsCalled) {
   write("copy_of_thing/meshes/a.stl", kStl);
   read_scene(write("copy_of_thing/model.sdf", model_with(mesh("model://thing/meshes/a.stl"))));

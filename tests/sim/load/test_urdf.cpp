@@ -197,7 +197,7 @@ TEST(UrdfShape, OfAnUnknownGeometryIsLeftOut) {
 TEST(UrdfShape, WithoutAMeshFileStatesWhereItIsSearched) {
   const std::string text = robot(link_text(
       "a", kUnitInertial + "<collision><geometry><mesh filename='package://nowhere/a.stl'/></geometry></collision>"));
-  EXPECT_TRUE(holds(warnings_about(text), "/r/a/a_collision: file not found: 'model://nowhere/a.stl'"));
+  EXPECT_TRUE(holds(warnings_about(text), "/r/a/a_collision: file not found: 'package://nowhere/a.stl'"));
 }
 
 TEST(UrdfMaterial, HasItsColour) {

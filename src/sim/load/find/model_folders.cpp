@@ -98,16 +98,21 @@ fs::path find_model(const std::string& given, const fs::path& scene_folder) {
     return found.empty() ? find_in(model_folders(scene_folder), as_folder(*path)) : found;
   }
   if (const auto path = after("file://", uri)) return find_in(model_folders(scene_folder), *path);
-  if (const auto in_package = after("package://", uri)) return find_in_package(*in_package, scene_folder);
+  // Gazebo takes a package as a model and the other way round: SDFormat converts package:// in a URDF file to model://.
+  const auto of_package = after("package://", uri);
+  if (of_package) {
+    if (fs::path found = find_in_package(*of_package, scene_folder); !found.empty()) return found;
+  }
   const auto of_model = after("model://", uri);
-  const fs::path found = find_in(model_folders(scene_folder), of_model.value_or(uri));
-  // SDFormat converts package:// in a URDF file to model://.
+  const fs::path searched = of_package ? *of_package : of_model ? *of_model : fs::path(uri);
+  const fs::path found = find_in(model_folders(scene_folder), searched);
   return found.empty() && of_model ? find_in_package(*of_model, scene_folder) : found;
 }
 
 fs::path find_resource(const std::string& uri, const fs::path& naming_file, const fs::path& scene_folder) {
   const fs::path beside = fs::exists(naming_file) ? naming_file.parent_path() : scene_folder;
-  const auto of_model = after("model://", uri);
+  auto of_model = after("model://", uri);
+  if (!of_model) of_model = after("package://", uri);
   if (!of_model) {
     if (fs::path found = find_in({beside}, after("file://", uri).value_or(uri)); !found.empty()) return found;
     return find_model(uri, scene_folder);

@@ -13,12 +13,6 @@
 namespace bubblesim {
 namespace {
 
-/// A file in a ROS package is also searched as that of a model, as Gazebo does.
-std::string sdf_uri(const std::string& filename) {
-  const std::string package = "package://";
-  return filename.rfind(package, 0) == 0 ? "model://" + filename.substr(package.size()) : filename;
-}
-
 /// SDFormat's <diffuse>: red, green, blue and opacity. Gazebo divides URDF's colours by 0.8.
 std::optional<std::string> read_color(const XmlElement& color, const std::string& path, LoadContext& context) {
   const std::string* text = color.attribute("rgba");
@@ -50,7 +44,7 @@ std::optional<XmlElement> read_appearance(const XmlElement& material, const std:
   const XmlElement* texture = material.child("texture");
   const std::string* filename = texture != nullptr ? texture->attribute("filename") : nullptr;
   if (filename != nullptr && !filename->empty()) {
-    appearance.add_child("pbr").add_child("metal").add_child("albedo_map", sdf_uri(*filename));
+    appearance.add_child("pbr").add_child("metal").add_child("albedo_map", *filename);
   }
   return appearance.children.empty() ? std::nullopt : std::make_optional(std::move(appearance));
 }
@@ -98,7 +92,7 @@ class GeometryReader {
       context_.report(shape_.source(), path_, "<mesh> has no filename: it must name a mesh file");
       return;
     }
-    geometry_.add_child("uri", sdf_uri(*filename));
+    geometry_.add_child("uri", *filename);
     if (shape_.attribute("scale") != nullptr) copy_vector("scale", "scale");
   }
 

@@ -94,10 +94,10 @@ class ValueCheck {
   }
 
  private:
-  /// Only required strings must not be empty. Some files have three slashes after model:.
+  /// Only required strings must not be empty. Some files have three slashes after model: or package:.
   void check_text() {
-    const std::string scheme = "model://";
-    if (element_.name == "uri" && element_.text.rfind(scheme + "/", 0) == 0) {
+    for (const std::string scheme : {"model://", "package://"}) {
+      if (element_.name != "uri" || element_.text.rfind(scheme + "/", 0) != 0) continue;
       const std::size_t start = std::min(element_.text.find_first_not_of('/', scheme.size()), element_.text.size());
       const std::string fixed = scheme + element_.text.substr(start);
       warn("is '" + element_.text + "': using " + fixed);
