@@ -13,22 +13,76 @@ namespace bubblesim {
 namespace {
 
 constexpr int kMostSweeps = 120;
-constexpr double kSmallChange = 2e-6;  // m/s, by which a sweep may change velocities at a solution
+constexpr double kSmallChange = 1e-5;  // m/s, by which solving a pair may change its velocity at a solution
+
+Matrix3 cross_matrix(const Vector3& v) { return Matrix3{{0, -v.z(), v.y()}, {v.z(), 0, -v.x()}, {-v.y(), v.x(), 0}}; }
+
+SpatialVector spatial(const Vector3& first, const Vector3& second) {
+  SpatialVector made;
+  made << first, second;
+  return made;
+}
+
+SolvedRow make_row(const SolvedPair& pair, const Vector3& direction, const Vector3& moment) {
+  const auto& k = pair.effect;
+  SolvedRow row;
+  row.along = spatial(direction, moment);
+  row.effect = spatial(k[0][0] * direction + k[0][1] * moment, k[1][0] * direction + k[1][1] * moment);
+  row.admittance = row.along.dot(row.effect);
+  row.inverse = 1 / row.admittance;
+  return row;
+}
 
 void soften(SolvedRow& row, double softness) {
   row.softness = softness;
   row.admittance += softness;
+  row.inverse = 1 / row.admittance;
+}
+
+std::array<SolvedRow*, 3> rows_of(SolvedPoint& point) { return {&point.normal, &point.tangent[0], &point.tangent[1]}; }
+
+void solve_spin(PairMotion& pair, const SolvedPoint& point, SolvedSpin& spin) {
+  const auto set = [&](SolvedRow& row, double impulse) { pair.apply(row, impulse - row.impulse); };
+  const double most = spin.spinning * point.normal.impulse;
+  set(spin.spin, std::clamp(spin.spin.impulse - pair.speed(spin.spin) * spin.spin.inverse, -most, most));
+  if (spin.rolling == 0) return;
+  const double v1 = pair.speed(spin.roll[0]);
+  const double v2 = pair.speed(spin.roll[1]);
+  const auto [p1, p2] = stick_within(spin.roll, spin.coupling, v1, v2, spin.rolling * point.normal.impulse);
+  set(spin.roll[0], p1);
+  set(spin.roll[1], p2);
+}
+
+inline void solve_point(PairMotion& pair, SolvedPoint& point) {
+  SolvedRow& normal = point.normal;
+  const double wanted = (point.target - pair.speed(normal) - normal.softness * normal.impulse) * normal.inverse;
+  pair.apply(normal, std::max(wanted, -normal.impulse));
+
+  auto& [first, second] = point.tangent;
+  const double v1 = pair.speed(first) + first.softness * first.impulse;
+  const double v2 = pair.speed(second) + second.softness * second.impulse;
+  std::array<double, 2> p{};
+  if (point.isotropic) {
+    p = stick_within(point.tangent, point.coupling, v1, v2, point.mu * normal.impulse);
+  } else {
+    p = stick(point.tangent, point.coupling, v1, v2);
+    p[0] = std::clamp(p[0], -point.mu * normal.impulse, point.mu * normal.impulse);
+    p[1] = std::clamp(p[1], -point.mu2 * normal.impulse, point.mu2 * normal.impulse);
+  }
+  pair.apply(first, p[0] - first.impulse);
+  pair.apply(second, p[1] - second.impulse);
 }
 
 }  // namespace
 
 void ContactSolver::clear() {
-  for (const SolvedBody& body : bodies_) {
+  for (const SolvedBody& body : island_.bodies) {
     if (body.body != nullptr) numbers_[static_cast<std::size_t>(body.link)] = 0;
   }
-  bodies_.assign(1, {});
-  points_.clear();
-  spins_.clear();
+  island_.bodies.assign(1, {});
+  island_.pairs.clear();
+  island_.points.clear();
+  island_.spins.clear();
 }
 
 int ContactSolver::number_of(const Link& link, const Vector3& gravity, double step) {
@@ -36,7 +90,7 @@ int ContactSolver::number_of(const Link& link, const Vector3& gravity, double st
   const auto at = static_cast<std::size_t>(link.number);
   if (at >= numbers_.size()) numbers_.resize(at + 1);
   if (numbers_[at] == 0) {
-    numbers_[at] = static_cast<int>(bodies_.size());
+    numbers_[at] = static_cast<int>(island_.bodies.size());
     add_body(link, gravity, step);
   }
   return numbers_[at];
@@ -44,7 +98,7 @@ int ContactSolver::number_of(const Link& link, const Vector3& gravity, double st
 
 void ContactSolver::add_body(const Link& link, const Vector3& gravity, double step) {
   dBodyID body = link.body.get();
-  SolvedBody& made = bodies_.emplace_back();
+  SolvedBody& made = island_.bodies.emplace_back();
   made.link = link.number;
   made.body = body;
   dMass mass;
@@ -60,50 +114,49 @@ void ContactSolver::add_body(const Link& link, const Vector3& gravity, double st
   made.spin = spin + made.inverse_inertia * torque * step;
 }
 
-void ContactSolver::finish_row(int a, int b, SolvedRow& row) const {
-  const SolvedBody& first = bodies_[static_cast<std::size_t>(a)];
-  const SolvedBody& second = bodies_[static_cast<std::size_t>(b)];
-  row.turned_a = first.inverse_inertia * row.arm_a;
-  row.turned_b = second.inverse_inertia * row.arm_b;
-  row.admittance = row.direction.squaredNorm() * (first.inverse_mass + second.inverse_mass) +
-                   row.arm_a.dot(row.turned_a) + row.arm_b.dot(row.turned_b);
+Vector3 ContactSolver::lever(int body, const Vector3& place) const {
+  const SolvedBody& at = island_.bodies[static_cast<std::size_t>(body)];
+  if (at.body == nullptr) return {};
+  return place - to_vector(dBodyGetPosition(at.body));
 }
 
-SolvedRow ContactSolver::make_row(int a, int b, const Vector3& direction, const Vector3& lever_a,
-                                  const Vector3& lever_b) const {
-  SolvedRow row;
-  row.direction = direction;
-  row.arm_a = lever_a.cross(direction);
-  row.arm_b = lever_b.cross(direction);
-  finish_row(a, b, row);
-  return row;
+void ContactSolver::add_pair(int a, int b, const Vector3& place, double height) {
+  SolvedPair& pair = island_.pairs.emplace_back();
+  pair.a = a;
+  pair.b = b;
+  pair.height = height;
+  pair.begin = pair.end = island_.points.size();
+  pair.lever_a = lever(a, place);
+  pair.lever_b = lever(b, place);
+  for (auto& row : pair.effect) row[0] = row[1] = Matrix3::Zero();
+  const auto add = [&pair](const SolvedBody& body, const Vector3& lever) {
+    const Matrix3 cross = cross_matrix(lever);
+    const Matrix3 turned = body.inverse_inertia * cross;
+    pair.effect[0][0] += Matrix3::Identity() * body.inverse_mass - cross * turned;
+    pair.effect[0][1] -= cross * body.inverse_inertia;
+    pair.effect[1][0] += turned;
+    pair.effect[1][1] += body.inverse_inertia;
+  };
+  add(island_.bodies[static_cast<std::size_t>(a)], pair.lever_a);
+  add(island_.bodies[static_cast<std::size_t>(b)], pair.lever_b);
 }
 
-SolvedRow ContactSolver::make_turning_row(int a, int b, const Vector3& axis) const {
-  SolvedRow row;
-  row.arm_a = row.arm_b = axis;
-  finish_row(a, b, row);
-  return row;
-}
-
-void ContactSolver::add_point(int a, int b, const FoundContact& found, std::size_t index, const ExpectedContact& start,
-                              double height, double step) {
+void ContactSolver::add_point(const FoundContact& found, std::size_t index, const ExpectedContact& start, double step) {
   const dSurfaceParameters& surface = found.contact.surface;
+  SolvedPair& pair = island_.pairs.back();
+  const SolvedBody& body_a = island_.bodies[static_cast<std::size_t>(pair.a)];
+  const SolvedBody& body_b = island_.bodies[static_cast<std::size_t>(pair.b)];
   const Vector3 position = to_vector(found.contact.geom.pos);
   const Vector3 n = to_vector(found.contact.geom.normal);
-  const auto lever = [&](int body) -> Vector3 {
-    const SolvedBody& at = bodies_[static_cast<std::size_t>(body)];
-    if (at.body == nullptr) return {};
-    return position - to_vector(dBodyGetPosition(at.body));
-  };
-  const Vector3 lever_a = lever(a);
-  const Vector3 lever_b = lever(b);
-  SolvedPoint& point = points_.emplace_back();
-  point.a = a;
-  point.b = b;
-  point.height = height;
+  const Vector3 lever_a = lever(pair.a, position);
+  const Vector3 lever_b = lever(pair.b, position);
+  const Vector3 place = body_a.body != nullptr ? lever_a - pair.lever_a : lever_b - pair.lever_b;  // from the origin
+  pair.extent = std::max(pair.extent, place.norm());
+  const auto row_along = [&](const Vector3& direction) { return make_row(pair, direction, place.cross(direction)); };
+  SolvedPoint& point = island_.points.emplace_back();
+  pair.end = island_.points.size();
   point.found = index;
-  point.normal = make_row(a, b, n, lever_a, lever_b);
+  point.normal = row_along(n);
 
   Vector3 t1;
   if ((surface.mode & dContactFDir1) != 0) {
@@ -114,7 +167,7 @@ void ContactSolver::add_point(int a, int b, const FoundContact& found, std::size
     dPlaneSpace(found.contact.geom.normal, p, q);
     t1 = to_vector(p);
   }
-  point.tangent = {make_row(a, b, t1, lever_a, lever_b), make_row(a, b, n.cross(t1), lever_a, lever_b)};
+  point.tangent = {row_along(t1), row_along(n.cross(t1))};
   if ((surface.mode & dContactSlip1) != 0) soften(point.tangent[0], surface.slip1 / step);
   if ((surface.mode & dContactSlip2) != 0) soften(point.tangent[1], surface.slip2 / step);
   point.coupling = couple(point.tangent);
@@ -128,167 +181,157 @@ void ContactSolver::add_point(int a, int b, const FoundContact& found, std::size
   const double motion = (surface.mode & dContactMotionN) != 0 ? surface.motionN : 0;
   point.target += motion;
   if ((surface.mode & dContactBounce) != 0) {
-    const auto now = [&](const SolvedBody& body, const Vector3& arm) {
+    const auto now = [&](const SolvedBody& body, const Vector3& lever) {
       if (body.body == nullptr) return 0.0;
-      return n.dot(to_vector(dBodyGetLinearVel(body.body))) + arm.dot(to_vector(dBodyGetAngularVel(body.body)));
+      const Vector3 turning = to_vector(dBodyGetAngularVel(body.body)).cross(lever);
+      return n.dot(to_vector(dBodyGetLinearVel(body.body)) + turning);
     };
-    const double incoming = now(bodies_[static_cast<std::size_t>(b)], point.normal.arm_b) -
-                            now(bodies_[static_cast<std::size_t>(a)], point.normal.arm_a);
+    const double incoming = now(body_b, lever_b) - now(body_a, lever_a);
     if (incoming > surface.bounce_vel) point.target = std::max(point.target, surface.bounce * incoming + motion);
   }
   const Vector3 force = n * start.normal + start.friction;
   // A rigid contact yields only to what it did not bear before: a stack does not sink.
   if (!found.has_own_correction) point.target += point.normal.softness * std::max(force.dot(n), 0.0) * step;
   const Vector3 impulse = force * step;
-  apply(point, point.normal, std::max(impulse.dot(n), 0.0));
-  for (SolvedRow& row : point.tangent) apply(point, row, impulse.dot(row.direction));
-  if ((surface.mode & dContactRolling) != 0) add_spin(point, surface, start.torque * step);
+  PairMotion pushed;
+  pushed.apply(point.normal, std::max(impulse.dot(n), 0.0));
+  for (SolvedRow& row : point.tangent) pushed.apply(row, impulse.dot(row.along.head<3>()));
+  if ((surface.mode & dContactRolling) != 0) add_spin(pair, pushed, point, surface, start.torque * step);
+  give(pair, pushed.given);
 }
 
-void ContactSolver::add_spin(SolvedPoint& point, const dSurfaceParameters& surface, const Vector3& expected) {
-  point.spinning = static_cast<int>(spins_.size());
-  SolvedSpin& made = spins_.emplace_back();
+void ContactSolver::add_spin(const SolvedPair& pair, PairMotion& pushed, SolvedPoint& point,
+                             const dSurfaceParameters& surface, const Vector3& expected) {
+  point.spinning = static_cast<int>(island_.spins.size());
+  SolvedSpin& made = island_.spins.emplace_back();
   made.rolling = surface.rho;
   made.spinning = surface.rhoN;
-  const auto row = [&](const SolvedRow& along) { return make_turning_row(point.a, point.b, along.direction); };
+  const auto row = [&](const SolvedRow& along) { return make_row(pair, Vector3(), along.along.head<3>()); };
   made.roll = {row(point.tangent[0]), row(point.tangent[1])};
   made.spin = row(point.normal);
   made.coupling = couple(made.roll);
   for (SolvedRow* turning : {&made.roll[0], &made.roll[1], &made.spin}) {
-    apply(point, *turning, expected.dot(turning->arm_a));
+    pushed.apply(*turning, expected.dot(turning->along.tail<3>()));
   }
 }
 
-double ContactSolver::speed(const SolvedPoint& point, const SolvedRow& row) const {
-  const SolvedBody& a = bodies_[static_cast<std::size_t>(point.a)];
-  const SolvedBody& b = bodies_[static_cast<std::size_t>(point.b)];
-  return row.direction.dot(a.velocity - b.velocity) + row.arm_a.dot(a.spin) - row.arm_b.dot(b.spin);
+SpatialVector ContactSolver::motion_of(const SolvedPair& pair) const {
+  const SolvedBody& a = island_.bodies[static_cast<std::size_t>(pair.a)];
+  const SolvedBody& b = island_.bodies[static_cast<std::size_t>(pair.b)];
+  return spatial(a.velocity + a.spin.cross(pair.lever_a) - b.velocity - b.spin.cross(pair.lever_b), a.spin - b.spin);
 }
 
-void ContactSolver::apply(const SolvedPoint& point, SolvedRow& row, double impulse) {
-  SolvedBody& a = bodies_[static_cast<std::size_t>(point.a)];
-  SolvedBody& b = bodies_[static_cast<std::size_t>(point.b)];
-  row.impulse += impulse;
-  a.velocity += row.direction * (impulse * a.inverse_mass);
-  b.velocity -= row.direction * (impulse * b.inverse_mass);
-  a.spin += row.turned_a * impulse;
-  b.spin -= row.turned_b * impulse;
+void ContactSolver::give(const SolvedPair& pair, const SpatialVector& given) {
+  const Vector3 impulse = given.head<3>();
+  const Vector3 moment = given.tail<3>();
+  SolvedBody& a = island_.bodies[static_cast<std::size_t>(pair.a)];
+  SolvedBody& b = island_.bodies[static_cast<std::size_t>(pair.b)];
+  a.velocity += impulse * a.inverse_mass;
+  b.velocity -= impulse * b.inverse_mass;
+  a.spin += a.inverse_inertia * (moment + pair.lever_a.cross(impulse));
+  b.spin -= b.inverse_inertia * (moment + pair.lever_b.cross(impulse));
 }
 
-double ContactSolver::solve_spin(const SolvedPoint& point, SolvedSpin& spin) {
-  double change = 0;
-  const auto set = [&](SolvedRow& row, double impulse) {
-    const double more = impulse - row.impulse;
-    apply(point, row, more);
-    // At most this much, in m/s, at the point.
-    change = std::max(change, std::abs(more) * std::sqrt(row.admittance * point.tangent[0].admittance));
-  };
-  const double most = spin.spinning * point.normal.impulse;
-  set(spin.spin, std::clamp(spin.spin.impulse - speed(point, spin.spin) / spin.spin.admittance, -most, most));
-  if (spin.rolling == 0) return change;
-  const double v1 = speed(point, spin.roll[0]);
-  const double v2 = speed(point, spin.roll[1]);
-  const auto [p1, p2] = stick_within(spin.roll, spin.coupling, v1, v2, spin.rolling * point.normal.impulse);
-  set(spin.roll[0], p1);
-  set(spin.roll[1], p2);
-  return change;
-}
-
-double ContactSolver::solve_point(SolvedPoint& point) {
-  SolvedRow& normal = point.normal;
-  const double wanted = (point.target - speed(point, normal) - normal.softness * normal.impulse) / normal.admittance;
-  const double pressed = std::max(normal.impulse + wanted, 0.0) - normal.impulse;
-  apply(point, normal, pressed);
-  double change = std::abs(pressed) * normal.admittance;
-
-  auto& [first, second] = point.tangent;
-  const double v1 = speed(point, first) + first.softness * first.impulse;
-  const double v2 = speed(point, second) + second.softness * second.impulse;
-  std::array<double, 2> p{};
-  if (point.isotropic) {
-    p = stick_within(point.tangent, point.coupling, v1, v2, point.mu * normal.impulse);
-  } else {
-    p = stick(point.tangent, point.coupling, v1, v2);
-    p[0] = std::clamp(p[0], -point.mu * normal.impulse, point.mu * normal.impulse);
-    p[1] = std::clamp(p[1], -point.mu2 * normal.impulse, point.mu2 * normal.impulse);
-  }
-  change = std::max(change, std::abs(p[0] - first.impulse) * first.admittance);
-  change = std::max(change, std::abs(p[1] - second.impulse) * second.admittance);
-  apply(point, first, p[0] - first.impulse);
-  apply(point, second, p[1] - second.impulse);
-  if (point.spinning < 0) return change;
-  return std::max(change, solve_spin(point, spins_[static_cast<std::size_t>(point.spinning)]));
-}
-
-double ContactSolver::sweep() {
-  double change = 0;
-  for (SolvedPoint& point : points_) {
-    point.before = {point.normal.impulse, point.tangent[0].impulse, point.tangent[1].impulse};
-    change = std::max(change, solve_point(point));
+ContactSolver::Change ContactSolver::sweep() {
+  Change change;
+  for (const SolvedPair& pair : island_.pairs) {
+    PairMotion motion{motion_of(pair)};
+    const SpatialVector before = motion.motion;
+    for (std::size_t i = pair.begin; i < pair.end; ++i) {
+      SolvedPoint& point = island_.points[i];
+      point.before = {point.normal.impulse, point.tangent[0].impulse, point.tangent[1].impulse};
+      solve_point(motion, point);
+      if (point.spinning >= 0) solve_spin(motion, point, island_.spins[static_cast<std::size_t>(point.spinning)]);
+      const double steps[] = {point.normal.impulse - point.before[0], point.tangent[0].impulse - point.before[1],
+                              point.tangent[1].impulse - point.before[2]};
+      for (const double step : steps) change.square += step * step;
+    }
+    const SpatialVector by = motion.motion - before;
+    change.velocity = std::max(change.velocity, by.head<3>().norm() + by.tail<3>().norm() * pair.extent);
+    give(pair, motion.given);
   }
   return change;
 }
 
-double ContactSolver::squared_step() const {
-  double sum = 0;
-  for (const SolvedPoint& point : points_) {
-    const std::array<double, 3> now = {point.normal.impulse, point.tangent[0].impulse, point.tangent[1].impulse};
-    for (std::size_t i = 0; i < 3; ++i) sum += (now[i] - point.before[i]) * (now[i] - point.before[i]);
+bool ContactSolver::solve_stack() {
+  if (!stack_solver_.solve(island_)) return false;
+  for (const SolvedPair& pair : island_.pairs) {
+    SpatialVector given = SpatialVector::Zero();
+    for (std::size_t i = pair.begin; i < pair.end; ++i) {
+      for (std::size_t row = 0; row < 3; ++row) {
+        SolvedRow& along = *rows_of(island_.points[i])[row];
+        const double more = stack_solver_.change(i)[row];
+        along.impulse += more;
+        given += along.along * more;
+      }
+    }
+    give(pair, given);
   }
-  return sum;
+  return true;
 }
 
 void ContactSolver::accelerate(double part) {
-  for (SolvedPoint& point : points_) {
-    const std::array<SolvedRow*, 3> rows = {&point.normal, &point.tangent[0], &point.tangent[1]};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double swept = rows[i]->impulse - point.before[i];
-      const double more = part * point.search[i];
-      if (more != 0) apply(point, *rows[i], more);
-      point.search[i] = more + swept;
+  for (const SolvedPair& pair : island_.pairs) {
+    SpatialVector given = SpatialVector::Zero();
+    for (std::size_t i = pair.begin; i < pair.end; ++i) {
+      SolvedPoint& point = island_.points[i];
+      for (std::size_t row = 0; row < 3; ++row) {
+        SolvedRow& along = *rows_of(point)[row];
+        const double swept = along.impulse - point.before[row];
+        const double more = part * point.search[row];
+        along.impulse += more;
+        given += along.along * more;
+        point.search[row] = more + swept;
+      }
     }
+    give(pair, given);
   }
 }
 
+void ContactSolver::push(const SolvedPair& pair, const SpatialVector& given, double step) const {
+  const Vector3 force = given.head<3>() / step;
+  const Vector3 moment = given.tail<3>() / step;
+  const auto add = [&](int number, double sign, const Vector3& lever) {
+    dBodyID body = island_.bodies[static_cast<std::size_t>(number)].body;
+    if (body == nullptr) return;
+    const Vector3 torque = (moment + lever.cross(force)) * sign;
+    dBodyAddForce(body, force.x() * sign, force.y() * sign, force.z() * sign);
+    dBodyAddTorque(body, torque.x(), torque.y(), torque.z());
+  };
+  add(pair.a, 1, pair.lever_a);
+  add(pair.b, -1, pair.lever_b);
+}
+
 void ContactSolver::solve(std::vector<FoundContact>& points, double step) {
-  std::stable_sort(points_.begin(), points_.end(),
-                   [](const SolvedPoint& a, const SolvedPoint& b) { return a.height < b.height; });
+  std::stable_sort(island_.pairs.begin(), island_.pairs.end(),
+                   [](const SolvedPair& a, const SolvedPair& b) { return a.height < b.height; });
   double before = 0;
   for (int i = 0; i < kMostSweeps; ++i) {
-    if (sweep() < kSmallChange) break;
+    const Change change = sweep();
+    if (change.velocity < kSmallChange) break;
     if (i + 1 == kMostSweeps) break;  // a sweep comes last, since it leaves the impulses within their limits
-    const double now = squared_step();
-    accelerate(now < before ? now / before : 0);
-    before = now;
+    if (i == 0 && solve_stack()) continue;
+    accelerate(change.square < before ? change.square / before : 0);
+    before = change.square;
   }
-  for (const SolvedPoint& point : points_) {
-    Vector3 impulse = point.normal.direction * point.normal.impulse;
-    Vector3 turn_a = point.normal.arm_a * point.normal.impulse;
-    Vector3 turn_b = point.normal.arm_b * point.normal.impulse;
-    const auto add = [&](const SolvedRow& row) {
-      impulse += row.direction * row.impulse;
-      turn_a += row.arm_a * row.impulse;
-      turn_b += row.arm_b * row.impulse;
-    };
-    for (const SolvedRow& row : point.tangent) add(row);
-    if (point.spinning >= 0) {
-      const SolvedSpin& spin = spins_[static_cast<std::size_t>(point.spinning)];
-      Vector3 turn;
-      for (const SolvedRow* row : {&spin.roll[0], &spin.roll[1], &spin.spin}) {
-        add(*row);
-        turn += row->arm_a * row->impulse;
+  for (const SolvedPair& pair : island_.pairs) {
+    SpatialVector given = SpatialVector::Zero();
+    for (std::size_t i = pair.begin; i < pair.end; ++i) {
+      SolvedPoint& point = island_.points[i];
+      SpatialVector whole = SpatialVector::Zero();
+      for (const SolvedRow* row : rows_of(point)) whole += row->along * row->impulse;
+      FoundContact& found = points[point.found];
+      found.force = whole.head<3>() / step;
+      if (point.spinning >= 0) {
+        const SolvedSpin& spin = island_.spins[static_cast<std::size_t>(point.spinning)];
+        SpatialVector turn = SpatialVector::Zero();
+        for (const SolvedRow* row : {&spin.roll[0], &spin.roll[1], &spin.spin}) turn += row->along * row->impulse;
+        found.torque = turn.tail<3>() / step;
+        whole += turn;
       }
-      points[point.found].torque = turn / step;
+      given += whole;
     }
-    points[point.found].force = impulse / step;
-    const auto push = [&](int number, const Vector3& force, const Vector3& torque) {
-      dBodyID body = bodies_[static_cast<std::size_t>(number)].body;
-      if (body == nullptr) return;
-      dBodyAddForce(body, force.x(), force.y(), force.z());
-      dBodyAddTorque(body, torque.x(), torque.y(), torque.z());
-    };
-    push(point.a, impulse / step, turn_a / step);
-    push(point.b, -impulse / step, -turn_b / step);
+    push(pair, given, step);
   }
 }
 

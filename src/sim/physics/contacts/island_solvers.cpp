@@ -85,10 +85,10 @@ void IslandSolvers::solve_free_contacts(Substep& substep) {
     if (free.remembered != nullptr) {
       expected = expect(contacts.memory, *free.remembered, pair, &contacts.found.points[pair.begin], step);
     }
+    const Vector3 place = to_vector(contacts.found.points[pair.begin].contact.geom.pos);
+    solver.add_pair(a, b, place, up.dot(place));
     for (std::size_t j = 0; j < static_cast<std::size_t>(pair.count); ++j) {
-      const FoundContact& point = contacts.found.points[pair.begin + j];
-      const double height = up.dot(to_vector(point.contact.geom.pos));
-      solver.add_point(a, b, point, pair.begin + j, expected[j], height, step);
+      solver.add_point(contacts.found.points[pair.begin + j], pair.begin + j, expected[j], step);
     }
     if (i + 1 == pairs.size() || pairs[i + 1].island != free.island) solver.solve(contacts.found.points, step);
   }

@@ -7,25 +7,14 @@
 namespace bubblesim {
 namespace {
 
-Touch& touch_of(Touches& touches, const Collider* watched, const Collider* other) {
-  for (Touch& touch : touches.all) {
-    if (touch.watched == watched && touch.other == other) return touch;
+void add_points(Touch& touch, const FoundContact* points, int count, double sign, double step) {
+  touch.points.clear();
+  for (int i = 0; i < count; ++i) {
+    const Vector3 force = points[i].force * sign;
+    const dContactGeom& geom = points[i].contact.geom;
+    touch.impulse += force * step;
+    touch.points.push_back({to_vector(geom.pos), to_vector(geom.normal) * sign, geom.depth, force});
   }
-  Touch& touch = touches.all.emplace_back();
-  touch.watched = watched;
-  touch.other = other;
-  return touch;
-}
-
-void add_point(Touches& touches, const FoundPair& pair, const FoundContact& found, bool of_first, double step) {
-  Touch& touch = of_first ? touch_of(touches, pair.first, pair.second) : touch_of(touches, pair.second, pair.first);
-  if (touch.substep != touches.substeps) touch.points.clear();
-  touch.substep = touches.substeps;
-  const double sign = of_first ? 1 : -1;  // the normal points into the first shape
-  const Vector3 force = found.force * sign;
-  const dContactGeom& geom = found.contact.geom;
-  touch.impulse += force * step;
-  touch.points.push_back({to_vector(geom.pos), to_vector(geom.normal) * sign, geom.depth, force});
 }
 
 }  // namespace
@@ -35,14 +24,32 @@ void Touches::clear() {
   substeps = 0;
 }
 
+Touch& Touches::touch(const Collider* watched, const Collider* other) {
+  // A substep has the pairs in the order of the one before, and each once.
+  for (std::size_t i = 0; substeps > 1 && i < all.size(); ++i) {
+    Touch& touch = all[(next_ + i) % all.size()];
+    if (touch.watched != watched || touch.other != other) continue;
+    next_ = (next_ + i + 1) % all.size();
+    return touch;
+  }
+  Touch& touch = all.emplace_back();
+  touch.watched = watched;
+  touch.other = other;
+  return touch;
+}
+
 void Touches::add(const FoundContacts& found, double step) {
   ++substeps;
+  next_ = 0;
   for (const FoundPair& pair : found.pairs) {
-    if (!pair.first->watched && !pair.second->watched) continue;
-    for (std::size_t i = pair.begin; i < pair.begin + static_cast<std::size_t>(pair.count); ++i) {
-      if (pair.first->watched) add_point(*this, pair, found.points[i], true, step);
-      if (pair.second->watched) add_point(*this, pair, found.points[i], false, step);
-    }
+    const auto add = [&](const Collider* watched, const Collider* other, double sign) {
+      if (!watched->watched) return;
+      Touch& touched = touch(watched, other);
+      touched.substep = substeps;
+      add_points(touched, &found.points[pair.begin], pair.count, sign, step);
+    };
+    add(pair.first, pair.second, 1);  // the normal points into the first shape
+    add(pair.second, pair.first, -1);
   }
 }
 

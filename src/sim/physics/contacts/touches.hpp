@@ -2,6 +2,7 @@
 // What contact sensors observe.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,13 +22,19 @@ struct Touch {
 };
 
 /// Of the last advance().
-struct Touches {
+class Touches {
+ public:
   std::vector<Touch> all;
   std::uint64_t substeps = 0;
 
   void clear();
   /// Adds the contacts of a substep that was solved.
   void add(const FoundContacts& found, double step);
+
+ private:
+  Touch& touch(const Collider* watched, const Collider* other);
+
+  std::size_t next_ = 0;  // where the next touch is expected
 };
 
 }  // namespace bubblesim

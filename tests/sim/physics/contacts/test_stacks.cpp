@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <string>
 
@@ -69,6 +70,58 @@ TEST(Stack, OfTwentyBoxesStandsForTenMinutes) {
   world.advance(600, kStep);
   // It stands; each of its contacts settles within the millimetre by which rigid shapes overlap.
   EXPECT_LT((world.pose(top).position - before.position).norm(), 0.02);
+}
+
+TEST(Stack, OfTwelveBoxesDoesNotSwayAtItsStart) {
+  World world(stack(12), 0);
+  const ObjectId top = world.tree().find("/" + numbered(11));
+  world.advance(1, kStep);
+  EXPECT_LT(world.pose(top).position.head<2>().norm(), 2e-4);
+}
+
+/// Whether a stack of four stands whose upper boxes overhang by this part of their size.
+bool stands(double overhang) {
+  SceneDescription description = stack(4);
+  for (std::size_t i = 2; i < description.models.size(); ++i) description.models[i].pose.position.x() = 0.2 * overhang;
+  World world(description, 0);
+  const ObjectId top = world.tree().find("/" + numbered(3));
+  world.advance(1.5, kStep);
+  return world.pose(top).position.z() > 0.65;
+}
+
+TEST(Stack, FallsOnceItsCentreOfMassIsBeyondTheEdge) {
+  EXPECT_TRUE(stands(0.47));
+  EXPECT_FALSE(stands(0.53));
+}
+
+TEST(Stack, SlidesDownASlopeAsOneBlock) {
+  // a = g (sin - mu cos). The load stays within the base: mu times the height of the centre, 0.09 m, is below 0.1 m.
+  const double slope = 0.35;
+  const double mu = 0.3;
+  SceneDescription description = stack(3);
+  description.models[0].links[0].collisions[0].surface.mu = mu;
+  description.gravity = Vector3(9.81 * std::sin(slope), 0, -9.81 * std::cos(slope));
+  World world(description, 0);
+  world.advance(1, kStep);
+  const double expected = 9.81 * (std::sin(slope) - mu * std::cos(slope));
+  for (int i = 0; i < 3; ++i) {
+    const Vector3 velocity = world.velocity(world.tree().find("/" + numbered(i))).linear;
+    EXPECT_NEAR(velocity.x(), expected, 0.01 * expected) << i;
+    EXPECT_NEAR(velocity.z(), 0, 2e-3) << i;
+  }
+}
+
+TEST(Stack, SlidesWhereFrictionIsLeast) {
+  // Gravity with a horizontal part of 0.22 g: the top has mu 0.2 and slides, the others have mu 1 and stick. Nothing
+  // topples: 0.22 times the height of the centre, 0.088 m, is below 0.1 m.
+  SceneDescription description = stack(4);
+  description.models[4].links[0].collisions[0].surface.mu = 0.2;
+  description.gravity = Vector3(0.22 * 9.81, 0, -9.81);
+  World world(description, 0);
+  world.advance(0.2, kStep);
+  const auto speed = [&](int i) { return world.velocity(world.tree().find("/" + numbered(i))).linear.x(); };
+  EXPECT_NEAR(speed(3), 0.02 * 9.81 * 0.2, 0.02 * 0.02 * 9.81 * 0.2);
+  EXPECT_NEAR(speed(2), 0, 1e-3);
 }
 
 TEST(Pile, OfBoxesComesToRest) {
