@@ -39,8 +39,6 @@ void soften(SolvedRow& row, double softness) {
   row.inverse = 1 / row.admittance;
 }
 
-std::array<SolvedRow*, 3> rows_of(SolvedPoint& point) { return {&point.normal, &point.tangent[0], &point.tangent[1]}; }
-
 void solve_spin(PairMotion& pair, const SolvedPoint& point, SolvedSpin& spin) {
   const auto set = [&](SolvedRow& row, double impulse) { pair.apply(row, impulse - row.impulse); };
   const double most = spin.spinning * point.normal.impulse;
@@ -215,12 +213,6 @@ void ContactSolver::add_spin(const SolvedPair& pair, PairMotion& pushed, SolvedP
   }
 }
 
-SpatialVector ContactSolver::motion_of(const SolvedPair& pair) const {
-  const SolvedBody& a = island_.bodies[static_cast<std::size_t>(pair.a)];
-  const SolvedBody& b = island_.bodies[static_cast<std::size_t>(pair.b)];
-  return spatial(a.velocity + a.spin.cross(pair.lever_a) - b.velocity - b.spin.cross(pair.lever_b), a.spin - b.spin);
-}
-
 void ContactSolver::give(const SolvedPair& pair, const SpatialVector& given) {
   const Vector3 impulse = given.head<3>();
   const Vector3 moment = given.tail<3>();
@@ -235,7 +227,7 @@ void ContactSolver::give(const SolvedPair& pair, const SpatialVector& given) {
 ContactSolver::Change ContactSolver::sweep() {
   Change change;
   for (const SolvedPair& pair : island_.pairs) {
-    PairMotion motion{motion_of(pair)};
+    PairMotion motion{island_.motion_of(pair)};
     const SpatialVector before = motion.motion;
     for (std::size_t i = pair.begin; i < pair.end; ++i) {
       SolvedPoint& point = island_.points[i];
@@ -259,7 +251,7 @@ bool ContactSolver::solve_stack() {
     SpatialVector given = SpatialVector::Zero();
     for (std::size_t i = pair.begin; i < pair.end; ++i) {
       for (std::size_t row = 0; row < 3; ++row) {
-        SolvedRow& along = *rows_of(island_.points[i])[row];
+        SolvedRow& along = *island_.points[i].rows()[row];
         const double more = stack_solver_.change(i)[row];
         along.impulse += more;
         given += along.along * more;
@@ -276,7 +268,7 @@ void ContactSolver::accelerate(double part) {
     for (std::size_t i = pair.begin; i < pair.end; ++i) {
       SolvedPoint& point = island_.points[i];
       for (std::size_t row = 0; row < 3; ++row) {
-        SolvedRow& along = *rows_of(point)[row];
+        SolvedRow& along = *point.rows()[row];
         const double swept = along.impulse - point.before[row];
         const double more = part * point.search[row];
         along.impulse += more;
@@ -319,7 +311,7 @@ void ContactSolver::solve(std::vector<FoundContact>& points, double step) {
     for (std::size_t i = pair.begin; i < pair.end; ++i) {
       SolvedPoint& point = island_.points[i];
       SpatialVector whole = SpatialVector::Zero();
-      for (const SolvedRow* row : rows_of(point)) whole += row->along * row->impulse;
+      for (const SolvedRow* row : point.rows()) whole += row->along * row->impulse;
       FoundContact& found = points[point.found];
       found.force = whole.head<3>() / step;
       if (point.spinning >= 0) {

@@ -48,7 +48,6 @@ class ContactSolver {
   /// Adds the resistances to rolling and spinning of a point.
   void add_spin(const SolvedPair& pair, PairMotion& pushed, SolvedPoint& point, const dSurfaceParameters& surface,
                 const Vector3& expected);
-  SpatialVector motion_of(const SolvedPair& pair) const;
   /// Gives the bodies the impulses of the pair.
   void give(const SolvedPair& pair, const SpatialVector& given);
   void push(const SolvedPair& pair, const SpatialVector& given, double step) const;

@@ -35,6 +35,9 @@ struct SolvedPoint {
   std::size_t found = 0;
   std::array<double, 3> before{};  // N s, impulses of the normal and the tangents before a sweep
   std::array<double, 3> search{};  // direction of the conjugate gradients
+
+  std::array<SolvedRow*, 3> rows() { return {&normal, &tangent[0], &tangent[1]}; }
+  std::array<const SolvedRow*, 3> rows() const { return {&normal, &tangent[0], &tangent[1]}; }
 };
 
 /// Resistance to rolling about the tangents and to spinning about the normal.
@@ -78,6 +81,14 @@ struct SolvedIsland {
   std::vector<SolvedPair> pairs;
   std::vector<SolvedPoint> points;
   std::vector<SolvedSpin> spins;
+
+  SpatialVector motion_of(const SolvedPair& pair) const {
+    const SolvedBody& a = bodies[static_cast<std::size_t>(pair.a)];
+    const SolvedBody& b = bodies[static_cast<std::size_t>(pair.b)];
+    SpatialVector motion;
+    motion << a.velocity + a.spin.cross(pair.lever_a) - b.velocity - b.spin.cross(pair.lever_b), a.spin - b.spin;
+    return motion;
+  }
 };
 
 }  // namespace bubblesim

@@ -22,10 +22,6 @@ Matrix6 shift(const Vector3& lever) {
   return made;
 }
 
-std::array<const SolvedRow*, 3> rows_of(const SolvedPoint& point) {
-  return {&point.normal, &point.tangent[0], &point.tangent[1]};
-}
-
 double softness(const SolvedRow& row, std::size_t which) {
   return std::max(row.softness, (which == 0 ? kLeastSoft : kYields) * row.admittance);
 }
@@ -41,17 +37,24 @@ bool is_within(const SolvedPoint& point, double normal, double first, double sec
 
 bool StackSolver::solve(const SolvedIsland& island) {
   if (island.bodies.size() < kLeastBodies || !arrange(island)) return false;
+  assume(island);
+  for (int i = 0; i < kMostTries; ++i) {
+    assemble(island);
+    eliminate();
+    if (judge(island)) return true;
+  }
+  return false;
+}
+
+void StackSolver::assume(const SolvedIsland& island) {
   missing_.resize(island.points.size());
   changes_.resize(island.points.size());
   contacts_.resize(island.points.size());
   for (const SolvedPair& pair : island.pairs) {
-    const SolvedBody& a = island.bodies[static_cast<std::size_t>(pair.a)];
-    const SolvedBody& b = island.bodies[static_cast<std::size_t>(pair.b)];
-    SpatialVector motion;
-    motion << a.velocity + a.spin.cross(pair.lever_a) - b.velocity - b.spin.cross(pair.lever_b), a.spin - b.spin;
+    const SpatialVector motion = island.motion_of(pair);
     for (std::size_t i = pair.begin; i < pair.end; ++i) {
       const SolvedPoint& point = island.points[i];
-      const auto rows = rows_of(point);
+      const auto rows = point.rows();
       for (std::size_t row = 0; row < 3; ++row) {
         const double wanted = row == 0 ? point.target : 0;
         missing_[i][row] = wanted - rows[row]->softness * rows[row]->impulse - rows[row]->along.dot(motion);
@@ -61,12 +64,6 @@ bool StackSolver::solve(const SolvedIsland& island) {
       contacts_[i] = !presses ? Contact::kOpen : sticks ? Contact::kSticks : Contact::kSlides;
     }
   }
-  for (int i = 0; i < kMostTries; ++i) {
-    assemble(island);
-    eliminate();
-    if (judge(island)) return true;
-  }
-  return false;
 }
 
 bool StackSolver::arrange(const SolvedIsland& island) {
@@ -116,7 +113,7 @@ void StackSolver::assemble(const SolvedIsland& island) {
     Matrix6 stiffness = Matrix6::Zero();
     SpatialVector push = SpatialVector::Zero();
     for (std::size_t i = pair.begin; i < pair.end; ++i) {
-      const auto rows = rows_of(island.points[i]);
+      const auto rows = island.points[i].rows();
       if (contacts_[i] == Contact::kOpen) {
         for (const SolvedRow* row : rows) push -= row->along * row->impulse;
         continue;
@@ -179,7 +176,7 @@ bool StackSolver::judge(const SolvedIsland& island) {
     const SpatialVector motion = relative(pair);
     for (std::size_t i = pair.begin; i < pair.end; ++i) {
       const SolvedPoint& point = island.points[i];
-      const auto rows = rows_of(point);
+      const auto rows = point.rows();
       const std::size_t count = contacts_[i] == Contact::kSticks ? 3 : contacts_[i] == Contact::kSlides ? 1 : 0;
       std::array<double, 3>& change = changes_[i];
       change = {};

@@ -37,6 +37,8 @@ class StackSolver {
 
   /// Makes the bodies a tree; returns false for loops.
   bool arrange(const SolvedIsland& island);
+  /// Contacts go on as they are.
+  void assume(const SolvedIsland& island);
   void assemble(const SolvedIsland& island);
   void eliminate();
   /// Sets the changes of the impulses; returns false if contacts have to do something else than was assumed, which they
