@@ -120,7 +120,9 @@ class ShapeReader {
     part.frame = mesh.position_first("Ppf", "_pf").value_or(Pose());
     if (!(part.frame.position.norm() <= kMostSize)) part.frame.position = Vector3();
     part.is_convex = (mesh.u8("Va2").value_or(0) & 1U) != 0 || (body.u8("Var").value_or(0) & 4U) != 0;
-    part.is_wireframe = (mesh.u8("Var").value_or(0) & 4U) != 0;
+    const unsigned look = mesh.u8("Var").value_or(0);
+    part.is_wireframe = (look & 4U) != 0;
+    part.is_one_sided = (look & 2U) != 0;
     note_damage(mesh.damage(), [&] { read_primitive(mesh, part); });
     read_color(mesh.list("Cl0"), part);
     note_damage(mesh.damage(), [&] { read_texture(mesh.list("Toj"), part); });

@@ -33,6 +33,7 @@ struct Part {
   bool has_hole = false;  ///< in the primitive
   bool is_convex = false;
   bool is_wireframe = false;  ///< only its edges are drawn
+  bool is_one_sided = false;  ///< its back faces are not drawn
   Rgb color{0.7, 0.7, 0.7};   ///< ambient and diffuse
   Rgb emission{0, 0, 0};
   double opacity = 1;

@@ -158,7 +158,7 @@ class ShapeWriter {
     for (const auto& [look, parts] : meshes) {
       pugi::xml_node element = visual(in_link_, *parts.front(), std::get<std::string>(look));
       put(element.append_child("geometry").append_child("mesh"), "uri",
-          conversion_.meshes.write(name_ + "_visual", parts));
+          conversion_.meshes.write(name_ + "_visual", parts, true));
     }
   }
 
