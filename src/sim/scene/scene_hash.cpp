@@ -145,12 +145,14 @@ class DescriptionHash {
     (*this)(l.name, l.gravity_enabled, l.wind_enabled, l.linear_decay, l.angular_decay, l.pose, l.start, l.mass,
             l.centre_of_mass, l.inertia_diagonal, l.inertia_products, l.collisions, l.visuals, l.sensors, l.lights);
     if (!l.carrier.empty()) add(l.carrier);
+    if (l.start_velocity) (*this)(l.start_velocity->linear, l.start_velocity->angular);
   }
   void add(const MimicDescription& m) { (*this)(m.joint, m.axis, m.multiplier, m.offset, m.reference); }
   void add(const AxisDescription& a) {
     (*this)(a.direction, a.lower, a.upper, a.max_force, a.max_velocity, a.friction, a.damping, a.spring_stiffness,
             a.spring_reference, a.motor, a.mimic);
     if (a.target != 0) (*this)(a.target);
+    if (a.position_gain != kPositionGain) (*this)(a.position_gain);
     if (a.by_callback) (*this)(a.by_callback);
   }
   void add(const JointDescription& j) {
