@@ -44,13 +44,15 @@ using Geometry = std::variant<Box, Sphere, Cylinder, Capsule, Ellipsoid, Plane, 
 struct Surface {
   double mu = 1;                         ///< Coulomb friction; along fdir1 when mu2 is set
   std::uint16_t collide_bitmask = 0xff;  ///< two shapes collide when they share a bit
-  std::optional<double> mu2{};           ///< friction across fdir1; equal to mu when not set
-  Vector3 fdir1{};                       ///< in the shape's frame; zero: any direction
-  double slip1 = 0;                      ///< m/s of sliding along fdir1 per N of friction
-  double slip2 = 0;                      ///< across fdir1
-  double torsion = 0;                    ///< m; torque against spinning = torsion * normal force
-  double torsion_by_depth = 0;           ///< m^0.5; likewise, times the square root of the depth in m
-  double rolling = 0;                    ///< m; torque against rolling = rolling * normal force
+  /// For shapes of the same model, if they collide: see ModelDescription::self_collide. Not set: collide_bitmask.
+  std::optional<std::uint16_t> own_bitmask{};
+  std::optional<double> mu2{};  ///< friction across fdir1; equal to mu when not set
+  Vector3 fdir1{};              ///< in the shape's frame; zero: any direction
+  double slip1 = 0;             ///< m/s of sliding along fdir1 per N of friction
+  double slip2 = 0;             ///< across fdir1
+  double torsion = 0;           ///< m; torque against spinning = torsion * normal force
+  double torsion_by_depth = 0;  ///< m^0.5; likewise, times the square root of the depth in m
+  double rolling = 0;           ///< m; torque against rolling = rolling * normal force
   /// Contact stiffness in N/m and damping in N s/m; rigid when not set.
   std::optional<double> kp{};
   std::optional<double> kd{};

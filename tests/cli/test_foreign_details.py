@@ -10,7 +10,7 @@ import pytest
 import bubblesim
 from cli_support import bubblesim as program
 from node_support import run_sim
-from ttt_files import BOX, FLOOR, arm, arrays, cuboid, item, mesh, script, text, thing, write
+from ttt_files import BOX, FLOOR, arm, arrays, cuboid, item, joint, mesh, script, text, thing, write
 
 
 @pytest.fixture(autouse=True)
@@ -109,3 +109,53 @@ def test_open_surfaces_are_seen_from_both_sides(
     assert len(found) == faces
     if faces == 2:
         assert found == [(1, 3, 2), (1, 2, 3)]
+
+
+REMOVES = """sim=require'sim'
+function sysCall_init()
+  sim.removeModel(sim.getObject('/Base'))
+  print('left: '..tostring(sim.getObject('/Load', {noError = true}))..' '..#sim.getObjectsInTree(sim.handle_scene))
+end
+function sysCall_actuation() end
+"""
+
+
+def test_what_hangs_on_a_model_is_removed_with_it(tmp_path: Path) -> None:
+    load = thing("SHP", 20, 12, "Load", cuboid((0.1, 0.1, 0.1), 1), (1, 0, 0, 0, 0.3, 0, 0.2))  # nothing connects it
+    file = write(tmp_path / "arm.ttt", arm(0, 0, 0), load, FLOOR, BOX, script(2, REMOVES))
+    run = run_sim(file, "--no-ros", "--speed", "max", "--until", "0.2", "--strict")
+    assert run.returncode == 0, run.stderr
+    assert "left: -1 2\n" in run.stdout  # the floor and the box
+
+
+def test_a_part_of_a_robot_is_not_removed_on_its_own(tmp_path: Path) -> None:
+    load = thing("SHP", 20, 12, "Load", cuboid((0.1, 0.1, 0.1), 1), (1, 0, 0, 0, 0.3, 0, 0.2))
+    code = "function sysCall_init() sim.removeModel(sim.getObject('/Base/motor/Arm')) end"
+    run = run_sim(
+        write(tmp_path / "arm.ttt", arm(0, 0, 0), load, BOX, script(2, code)),
+        "--no-ros",
+        "--speed",
+        "max",
+        "--until",
+        "0.1",
+    )
+    assert "/Arm cannot be removed on its own: it is connected with /Base" in run.stderr
+
+
+@pytest.mark.parametrize(("mask", "pushes"), [(0xFF01, True), (0xFF02, False)], ids=["low half shared", "not shared"])
+def test_bodies_of_one_robot_collide_by_the_low_half_of_their_masks(tmp_path: Path, mask: int, pushes: bool) -> None:
+    """Two beams on one base: the first turns by its motor towards the other one, which turns freely."""
+
+    def beam(handle: int, half: bytes, mask: int, place: tuple[float, ...]) -> bytes:
+        own = cuboid((0.8, 0.05, 0.05), 1).replace(b"\xff\xff", struct.pack("<H", mask))
+        motor = thing("JNT", handle, 10, f"motor{handle}", half)
+        return motor + thing("SHP", handle + 1, handle, f"Beam{handle}", own, place)
+
+    base = thing("SHP", 10, -1, "Base", cuboid((0.1, 0.1, 0.1)))
+    turned = (math.sqrt(0.5), 0, 0, math.sqrt(0.5), 0, 0.6, 0)  # along y
+    beams = beam(20, joint(0, 4, 1), 0xFF01, (1, 0, 0, 0, 0.6, 0, 0)) + beam(30, joint(0, 0, 0), mask, turned)
+    simulation = bubblesim.Simulation(str(write(tmp_path / "beams.ttt", base, beams)))
+    simulation.step(36)  # 1.8 s
+    assert simulation.object("/Base/motor20").joint_position == pytest.approx(1.8, abs=0.05)
+    pushed = simulation.object("/Base/motor30").joint_position
+    assert pushed > 0.2 if pushes else pushed == pytest.approx(0, abs=1e-6)

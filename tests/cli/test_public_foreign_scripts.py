@@ -24,8 +24,8 @@ LACKING = {
     "arena2.ttt": "scripts that it includes",
     "scene_quadcopter.ttt": "signals of a program outside: without them its scripts compute with nil, there too",
     # What we lack.
-    "Robotnik_Summit_XL.ttt": "the plugin simExtROS of V-REP 3.2",
-    "Robotnik_Summit_XL_STD.ttm": "the plugin simExtROS of V-REP 3.2",
+    "Robotnik_Summit_XL.ttt": "simExtROS, a plugin of V-REP 3.2",
+    "Robotnik_Summit_XL_STD.ttm": "simExtROS, a plugin of V-REP 3.2",
     "testelimpoHSL.ttt": "simIM.rgb2hls",
     # A node of ROS: they fail at once without one, there too.
     "test_sendTransform.ttt": "ROS 1",

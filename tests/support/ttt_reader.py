@@ -35,7 +35,7 @@ class FilePart:
 class FileShape:
     is_static: bool
     is_respondable: bool
-    """With other trees."""
+    """With shapes of its own tree, or with others."""
     parts: list[FilePart]
 
 
@@ -185,7 +185,7 @@ def _shape(own: dict[bytes, bytes], arrays: list[bytes]) -> FileShape:
             elif tag == b"Wrp":
                 compounds.append(data)
     mask = struct.unpack("<H", own[b"Dc2"])[0] if b"Dc2" in own else 0xFFFF
-    collides = bool(own.get(b"Ss3", own.get(b"Ss2", b"\0"))[0] & 1) and mask >> 8 != 0
+    collides = bool(own.get(b"Ss3", own.get(b"Ss2", b"\0"))[0] & 1) and mask != 0
     return FileShape(not own[b"Sss"][0] & 0x80, collides, [_part(mesh, arrays) for mesh in meshes])
 
 

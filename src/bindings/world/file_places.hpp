@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a foreign scene's file says about objects beside physics: old names, data, parameters of scripts, collections.
+// What the file of a foreign scene has for objects beside physics: old names, data, parameters of scripts, collections.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -77,6 +77,7 @@ class DescriptionHash {
     (*this)(s.mu, s.collide_bitmask, s.mu2, s.fdir1, s.slip1, s.slip2, s.torsion, s.torsion_by_depth, s.rolling, s.kp,
             s.kd, s.soft_erp, s.soft_cfm, s.restitution, s.bounce_threshold, s.max_vel, s.min_depth, s.max_contacts,
             s.collide_without_contact);
+    if (s.own_bitmask) (*this)(*s.own_bitmask);
   }
   void add(const CollisionDescription& c) { (*this)(c.name, c.pose, c.geometry, c.surface, c.mesh_collision); }
   void add(const Color& c) { (*this)(c.r, c.g, c.b); }

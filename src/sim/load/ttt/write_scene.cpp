@@ -32,6 +32,7 @@ class ModelWriter {
     model_pose_ = is_static_ || group_.fixed != kNone ? c_.node(leader).world : at_zero(group_.bodies.front());
     put_pose(model_, model_pose_);
     if (is_static_) put(model_, "static", "true");
+    if (group_.bodies.size() > 1) put(model_, "self_collide", "true");
     for (const int i : group_.bodies) links_[i] = c_.names.take(c_.object(body(i).shape).alias);
     if (group_.fixed != kNone) {
       links_[kWorld] = c_.names.take(c_.object(group_.fixed).alias);

@@ -164,7 +164,7 @@ class ModelBuilder {
     dGeomID geom = collider.geom.get();
     dGeomSetData(geom, &collider);
     // Pairs of shapes without a common bit are skipped before any other test.
-    const unsigned long bits = description.surface.collide_without_contact ? 0 : description.surface.collide_bitmask;
+    const unsigned long bits = collide_bits(description.surface);
     dGeomSetCategoryBits(geom, bits);
     dGeomSetCollideBits(geom, bits);
     if (std::holds_alternative<Plane>(description.geometry)) {

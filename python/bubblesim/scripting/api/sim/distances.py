@@ -72,8 +72,8 @@ class DistanceFunctions(ObjectChangeFunctions, CollectionFunctions, LogFunctions
         return 0, 0.0
 
     def getCollectionHandle(self, name: str) -> int:
-        """Return the handle of a collection of the scene's file, or of one that setCollectionName has named; an empty
-        one is created if there is none (old name of createCollection)."""
+        """Return the handle of a collection of the scene's file, or of a collection that setCollectionName has named;
+        an empty collection is created if none has the name (old name of createCollection)."""
         made = self._caller.shared.collections.by_name
         if name not in made or made[name] not in self._caller.shared.collections.by_handle:
             made[name] = self._saved_collection(name)
