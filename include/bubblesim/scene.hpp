@@ -19,103 +19,11 @@
 #include "bubblesim/math.hpp"
 #include "bubblesim/random_quantity.hpp"
 #include "bubblesim/sensor_kinds.hpp"
+#include "bubblesim/shape_descriptions.hpp"
 #include "bubblesim/source.hpp"
 #include "bubblesim/transmission.hpp"
 
 namespace bubblesim {
-
-struct Box {
-  Vector3 size;  ///< full lengths along x, y, z
-};
-struct Sphere {
-  double radius = 0;
-};
-struct Cylinder {
-  double radius = 0;
-  double length = 0;  ///< along z
-};
-struct Capsule {
-  double radius = 0;
-  double length = 0;  ///< along z, between the centres of its round ends
-};
-struct Ellipsoid {
-  Vector3 radii;  ///< along x, y, z
-};
-struct Plane {
-  Vector3 normal = Vector3::UnitZ();  ///< infinite, through the origin; solid below
-};
-struct TriangleMesh;  // see triangle_mesh.hpp
-struct Mesh {
-  std::shared_ptr<const TriangleMesh> triangles;  ///< never null
-};
-using Geometry = std::variant<Box, Sphere, Cylinder, Capsule, Ellipsoid, Plane, Mesh>;
-
-/// Contact parameters of a shape. src/sim/physics/contacts/surface_pair.hpp combines those of two touching surfaces.
-struct Surface {
-  double mu = 1;                         ///< Coulomb friction; along fdir1 when mu2 is set
-  std::uint16_t collide_bitmask = 0xff;  ///< two shapes collide when they share a bit
-  std::optional<double> mu2{};           ///< friction across fdir1; equal to mu when not set
-  Vector3 fdir1{};                       ///< in the shape's frame; zero: any direction
-  double slip1 = 0;                      ///< m/s of sliding along fdir1 per N of friction
-  double slip2 = 0;                      ///< across fdir1
-  double torsion = 0;                    ///< m; torque against spinning = torsion * normal force
-  double torsion_by_depth = 0;           ///< m^0.5; likewise, times the square root of the depth in m
-  double rolling = 0;                    ///< m; torque against rolling = rolling * normal force
-  /// Contact stiffness in N/m and damping in N s/m; rigid when not set.
-  std::optional<double> kp{};
-  std::optional<double> kd{};
-  /// ODE's equivalents, used when neither kp nor kd is set.
-  std::optional<double> soft_erp{};
-  std::optional<double> soft_cfm{};
-  double restitution = 0;                ///< speed after a bounce divided by the speed before
-  double bounce_threshold = 1e5;         ///< m/s; no bounce below this speed
-  std::optional<double> max_vel{};       ///< m/s at which overlapping shapes are pushed apart
-  std::optional<double> min_depth{};     ///< m, allowed penetration depth
-  int max_contacts = 8;                  ///< maximum number of contact points with another shape
-  bool collide_without_contact = false;  ///< other shapes pass through this one
-};
-
-/// What a mesh collides as. kAuto: its hull if it fills it; otherwise convex parts that fit if it moves, and triangles
-/// if it does not.
-enum class MeshCollision { kAuto, kHull, kParts, kTriangles };
-
-struct CollisionDescription {
-  std::string name;
-  Pose pose;  ///< in the link's frame
-  Geometry geometry;
-  Surface surface;
-  Source source;
-  MeshCollision mesh_collision = MeshCollision::kAuto;
-};
-
-/// Red, green and blue, each from 0 to 1.
-struct Color {
-  float r = 0;
-  float g = 0;
-  float b = 0;
-};
-
-struct Texture;  // see triangle_mesh.hpp
-struct Material {
-  Color diffuse{0.7F, 0.7F, 0.7F};
-  Color emissive;
-  std::shared_ptr<const Texture> texture;  ///< replaces the diffuse colour where the surface has texture coordinates
-  double checker_size = 0;                 ///< m, side of a checkerboard square, in the shape's frame; 0: single colour
-  Color checker_color;                     ///< of every second square
-};
-
-/// A shape that rays hit: those of cameras, lidars and sonars. The collision shapes serve as visuals of a model without
-/// visuals.
-struct VisualDescription {
-  std::string name;
-  Pose pose;  ///< in the link's frame
-  Geometry geometry;
-  Material material;
-  bool keeps_mesh_materials = false;  ///< use the materials of the mesh file, if it has any
-  bool cast_shadows = true;
-  double laser_retro = 0;  ///< intensity of a lidar's return
-  Source source;
-};
 
 enum class LightKind {
   kDirectional,  ///< from infinitely far away
@@ -223,13 +131,14 @@ struct SensorDescription {
 
 struct LinkDescription {
   std::string name;
-  std::string alias;            ///< its name in paths; empty: the name
-  bool gravity_enabled = true;  ///< gravity acts on it
-  bool wind_enabled = false;    ///< the wind pushes it: see Wind
-  double linear_decay = 0;      ///< 1/s, decay of its velocity: see VelocityDecay
-  double angular_decay = 0;     ///< 1/s, decay of its angular velocity
-  Pose pose;                    ///< in the model's frame
-  std::optional<Pose> start{};  ///< initial pose, if it differs because of initial joint positions
+  std::string alias;                      ///< its name in paths; empty: the name
+  bool gravity_enabled = true;            ///< gravity acts on it
+  bool wind_enabled = false;              ///< the wind pushes it: see Wind
+  double linear_decay = 0;                ///< 1/s, decay of its velocity: see VelocityDecay
+  double angular_decay = 0;               ///< 1/s, decay of its angular velocity
+  Pose pose;                              ///< in the model's frame
+  std::optional<Pose> start{};            ///< initial pose, if it differs because of initial joint positions
+  std::optional<Twist> start_velocity{};  ///< of the link's origin, world axes; at rest when not set
   double mass = 1;
   Vector3 centre_of_mass;  ///< in the link's frame
   /// About the centre of mass, along the link's axes: xx, yy, zz, then xy, xz, yz. kg m^2
@@ -268,6 +177,9 @@ struct MimicDescription {
   double reference = 0;  ///< rad or m
 };
 
+/// 1/s; a position motor reduces its error with a time constant of one default simulation step.
+constexpr double kPositionGain = 20;
+
 struct AxisDescription {
   Vector3 direction = Vector3::UnitZ();  ///< unit length, in the joint's frame
   double lower = -std::numeric_limits<double>::infinity();
@@ -280,6 +192,7 @@ struct AxisDescription {
   double spring_reference = 0;                                    ///< m or rad, rest position of the spring
   MotorMode motor = MotorMode::kNone;
   double target = 0;                      ///< of the motor at the start: rad or m, rad/s or m/s, N m or N
+  double position_gain = kPositionGain;   ///< 1/s, of a position motor: its speed per position error
   std::optional<MimicDescription> mimic;  ///< replaces the motor's targets
   bool by_callback = false;               ///< the callback sysCall_joint of a script drives it
 };
@@ -383,6 +296,18 @@ enum class Solver {
   kBubblesim  ///< trees in generalised coordinates (docs/adr/0050), and ODE what trees do not know
 };
 
+/// A set of objects that a file has saved: its items add objects to it or remove them, one after the other.
+struct CollectionDescription {
+  enum class What { kObject, kTree, kChain, kAll };  ///< the object, all below, all above it, all of the scene
+  struct Item {
+    What what = What::kObject;
+    int id = -1;  ///< the id of the object's place
+    bool removes = false;
+  };
+  std::string name;
+  std::vector<Item> items;
+};
+
 struct SceneDescription {
   std::string name;
   std::string world_name;  ///< of the <world>; the scene's name when the file has none
@@ -395,6 +320,7 @@ struct SceneDescription {
   Environment environment;
   std::vector<ModelDescription> models;
   std::vector<FrameDescription> frames;  ///< of no model: they stay in the world
+  std::vector<CollectionDescription> collections;
   std::vector<PluginDescription> plugins;
   std::vector<RandomQuantity> randomized;  ///< in each simulation, by its seed
   bool is_model_file = false;  ///< the file contains a model and no world; the model stands on a ground plane

@@ -14,7 +14,7 @@ import pytest
 import bubblesim
 from cli_support import bubblesim as program
 from node_support import run_sim
-from ros_support import DEADLINE, REPOSITORY, built
+from ros_support import DEADLINE, built
 from ttt_files import BOX, FLOOR, LUA, PYTHON, arm, cuboid, item, joint, script, text, thing, write
 
 
@@ -267,19 +267,3 @@ def test_old_conversions_make_room_for_new_ones(tmp_path: Path) -> None:
     assert "old" not in left
     assert "young" in left
     assert len(left) == 2
-
-
-def public_files() -> list[Path]:
-    """Return public files, if there are any beside the project."""
-    folders = [folder / "shared" / "ttt" for folder in (REPOSITORY.parent, REPOSITORY.parent.parent)]
-    files = [file for folder in folders for suffix in ("ttt", "ttm") for file in folder.rglob(f"*.{suffix}")]
-    return sorted(file for file in set(files) if file.stat().st_size > 0)
-
-
-@pytest.mark.parametrize("file", public_files(), ids=lambda file: f"{file.parent.name}/{file.name}")
-def test_public_files_keep_together(file: Path) -> None:
-    simulation = bubblesim.Simulation(str(file))
-    simulation.step(max(1, round(1 / simulation.time_step)))
-    links = [each for each in simulation.objects if each.kind == "link"]
-    assert all(max(map(abs, link.position)) < 1e3 for link in links)
-    assert links or "simROS2" in file.parent.name  # scenes with scripts only

@@ -84,10 +84,25 @@ LUA = "sim=require'sim'\nfunction sysCall_init()\n  print('it is '..sim.getObjec
 PYTHON = "def sysCall_init():\n    print('python runs')\n"
 
 
-def arm(position: float, control: int, target: float) -> bytes:
-    """Return a static base and an arm of 1 m that turns about the vertical."""
+def arm(position: float, control: int, target: float, more: bytes = b"") -> bytes:
+    """Return a static base and an arm of 1 m that turns about the vertical; `more` is of its joint."""
     return (
         thing("SHP", 10, -1, "Base", cuboid((0.1, 0.1, 0.1)))
-        + thing("JNT", 11, 10, "motor", joint(position, control, target))
+        + thing("JNT", 11, 10, "motor", joint(position, control, target) + more)
         + thing("SHP", 12, 11, "Arm", cuboid((1, 0.05, 0.05), 1), (1, 0, 0, 0, 0.5, 0, 0))
     )
+
+
+def mesh(first: int, mass: float | None = None) -> bytes:
+    """Return the second half of a shape with the vertices and triangles of a number in `arrays`."""
+    numbers = item("Vev", struct.pack("<i", first)) + item("Inv", struct.pack("<i", first))
+    body = item("_as", struct.pack("<d", mass or 0)) + b"EOO"
+    shape = item("Ge2", item("Gst", body + numbers + b"EOO") + b"EOO")
+    return shape + item("Sss", bytes([0x80 if mass else 0])) + item("Ss3", b"\0") + item("Dc2", b"\xff\xff")
+
+
+def arrays(*meshes: tuple[list[tuple[float, float, float]], list[tuple[int, int, int]]]) -> bytes:
+    """Return the vertices and triangles of meshes; they come before the objects."""
+    vertices = [item("Ver", struct.pack(f"<{3 * len(v)}f", *(x for each in v for x in each))) for v, _ in meshes]
+    triangles = [item("Ind", struct.pack(f"<{3 * len(t)}i", *(i for each in t for i in each))) for _, t in meshes]
+    return item("VIN", b"".join(vertices + triangles) + b"EOO")

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A second reader of CoppeliaSim's files, for tests: the tree, poses and masses, straight from the bytes."""
+"""A second reader of CoppeliaSim's files, for tests: the tree, poses, masses and vertices, straight from the bytes."""
 
 from __future__ import annotations
 
+import functools
 import struct
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -13,6 +14,29 @@ import numpy as np
 _MARKERS = (b"EOO", b"NXT", b"EOF")
 _KINDS = b"SHP JNT DMY SNR RSN FSE CMA LGT SCT GRH PAT MIL MIR OCT PTC MKR CSO".split()
 _HEADER = 1021
+_AT_ONCE = 1 << 16
+"""Bytes that are decoded together."""
+
+
+@dataclass
+class FilePart:
+    """A mesh of a shape."""
+
+    primitive: int
+    """0 none, 1 plane, 2 disc, 3 cuboid, 4 spheroid, 5 cylinder, 6 cone, 7 heightfield, 8 capsule."""
+    points: np.ndarray
+    """n x 3, in the frame of the shape."""
+    up: np.ndarray
+    """Its z axis, in the frame of the shape."""
+    is_wireframe: bool
+
+
+@dataclass
+class FileShape:
+    is_static: bool
+    is_respondable: bool
+    """With shapes of its own tree, or with others."""
+    parts: list[FilePart]
 
 
 @dataclass
@@ -30,12 +54,23 @@ class FileObject:
     """From its frame to that of its children."""
     mass: float | None
     """Of a shape that is not static, kg."""
+    is_visible: bool = True
+    """By its layers."""
+    flags: int = 0
+    """What it forbids all below it, if it is a model."""
+    shape: FileShape | None = None
     children: list[FileObject] = field(default_factory=list)
 
 
+@functools.lru_cache(maxsize=2)
+def unpacked(file: Path) -> bytes:
+    return _content(file.read_bytes())
+
+
+@functools.lru_cache(maxsize=1)
 def roots(file: Path) -> list[FileObject]:
     """Return the objects at the top, with those below them in their order."""
-    objects = {each.handle: each for each in _objects(_content(file.read_bytes()))}
+    objects = {each.handle: each for each in _objects(unpacked(file))}
     top = []
     for each in objects.values():
         parent = objects.get(each.parent)
@@ -63,23 +98,32 @@ def _unpack(data: bytes, size: int) -> bytes:
         else:
             open_codes += [code + "1", code + "0"]
             place += 1
-    longest = max(map(len, codes))
-    table: list[tuple[int, int]] = [(0, 0)] * (1 << longest)
-    for code, value in codes.items():
-        first = int(code or "0", 2) << (longest - len(code))
-        table[first : first + (1 << (longest - len(code)))] = [(value, len(code) or 1)] * (1 << (longest - len(code)))
-    out = bytearray(size)
-    window = int.from_bytes(data[place // 8 : place // 8 + 8], "big")
-    left, after = 64 - place % 8, place // 8 + 8
-    window &= (1 << left) - 1
+    # In preorder, codes are in the order of their bits: a window of bits belongs to the last code that is not above it.
+    width = 56
+    starts = np.array([int(code or "0", 2) << (width - len(code)) for code in codes], np.int64)
+    order = np.argsort(starts)
+    values = np.array(list(codes.values()), np.uint8)[order]
+    widths = np.array([len(code) or 1 for code in codes], np.uint8)[order]
+    leaves = [_leaves(data, first, starts[order]) for first in range(0, len(data), _AT_ONCE)]
+    leaf = np.concatenate(leaves)
+    steps = widths[leaf].tobytes()
+    places = np.empty(size, np.int64)
     for i in range(size):
-        if left < longest:
-            window = window << 64 | int.from_bytes(data[after : after + 8].ljust(8, b"\0"), "big")
-            left, after = left + 64, after + 8
-        out[i], length = table[window >> (left - longest)]
-        left -= length
-        window &= (1 << left) - 1
-    return bytes(out)
+        places[i] = place
+        place += steps[place]
+    return values[leaf[places]].tobytes()
+
+
+def _leaves(data: bytes, first: int, starts: np.ndarray) -> np.ndarray:
+    """Return which code would begin at each bit of some bytes."""
+    part = np.frombuffer(data[first : first + _AT_ONCE + 8] + bytes(8), np.uint8)
+    count = min(_AT_ONCE, len(data) - first)
+    window = np.zeros(count, np.uint64)
+    for i in range(8):
+        window = window << np.uint64(8) | part[i : i + count].astype(np.uint64)
+    at_bits = window[:, None] << np.arange(8, dtype=np.uint64) >> np.uint64(8)  # 56 bits
+    found = np.searchsorted(starts, at_bits.reshape(-1).astype(np.int64), "right") - 1
+    return found.astype(np.uint8)
 
 
 def _items(data: bytes) -> Iterator[tuple[bytes, bytes]]:
@@ -96,7 +140,10 @@ def _items(data: bytes) -> Iterator[tuple[bytes, bytes]]:
 
 
 def _objects(content: bytes) -> Iterator[FileObject]:
-    for tag, data in _items(content):
+    lists = list(_items(content))
+    arrays = [data for tag, all_data in lists if tag == b"VIN" for tag, data in _items(all_data) if tag == b"Ver"]
+    layers = _active_layers(dict(lists))
+    for tag, data in lists:
         if tag not in _KINDS:
             continue
         common = dict(_items(data))
@@ -106,10 +153,51 @@ def _objects(content: bytes) -> Iterator[FileObject]:
         name = common.get(b"Ali", common.get(b"Nme", b"\0\0\0\0"))[4:].decode(errors="replace").split("#")[0]
         order = struct.unpack("<i", common[b"Cor"])[0] if b"Cor" in common else -1
         kind = tag.decode()
-        motion = _motion(own) if kind == "JNT" else np.eye(4)
+        made = FileObject(kind, handle, parent, name, order, _matrix(numbers[:4], numbers[4:]), np.eye(4), None)
+        if kind == "JNT":
+            made.motion = _motion(own)
+        is_model = next((common[item][0] & 1 for item in (b"Va3", b"Va2", b"Var") if item in common), 0)
         flags = struct.unpack("<i", common[b"Mpo"])[0] if b"Mpo" in common else 0
-        mass = _mass(own) if kind == "SHP" and own[b"Sss"][0] & 0x80 and not flags & 0x20 else None
-        yield FileObject(kind, handle, parent, name, order, _matrix(numbers[:4], numbers[4:]), motion, mass)
+        made.flags = flags if is_model and flags & 0xF000 != 0xF000 else 0
+        made.is_visible = bool(struct.unpack("<H", common[b"Lar"])[0] & layers)
+        if kind == "SHP":
+            made.shape = _shape(own, arrays)
+            made.mass = _mass(own) if not made.shape.is_static and not flags & 0x20 else None
+        yield made
+
+
+def _active_layers(lists: dict[bytes, bytes]) -> int:
+    for tag, item in ((b"ENV", b"Vil"), (b"SET", b"Al2")):
+        found = dict(_items(lists.get(tag, b""))).get(item)
+        if found is not None:
+            return int(struct.unpack("<H", found)[0])
+    return 0xFF
+
+
+def _shape(own: dict[bytes, bytes], arrays: list[bytes]) -> FileShape:
+    geometry = dict(_items(own.get(b"Ge2", b"")))
+    meshes = [geometry[b"Gst"]] if b"Gst" in geometry else []
+    compounds = [geometry[b"Gsg"]] if b"Gsg" in geometry else []
+    while compounds:
+        for tag, data in _items(compounds.pop()):
+            if tag == b"Geo":
+                meshes.append(data)
+            elif tag == b"Wrp":
+                compounds.append(data)
+    mask = struct.unpack("<H", own[b"Dc2"])[0] if b"Dc2" in own else 0xFFFF
+    collides = bool(own.get(b"Ss3", own.get(b"Ss2", b"\0"))[0] & 1) and mask != 0
+    return FileShape(not own[b"Sss"][0] & 0x80, collides, [_part(mesh, arrays) for mesh in meshes])
+
+
+def _part(mesh: bytes, arrays: list[bytes]) -> FilePart:
+    own = dict(_items(dict(_items(mesh))[b"EOO"]))
+    vertices = own[b"Ver"] if b"Ver" in own else arrays[struct.unpack("<i", own[b"Vev"])[0]]
+    points = np.frombuffer(vertices, "<f4").astype(float).reshape(-1, 3)
+    numbers = struct.unpack("<7d", own[b"_pf"]) if b"_pf" in own else struct.unpack("<7f", own[b"Ppf"])
+    frame = _matrix(numbers[3:], numbers[:3])
+    primitive = struct.unpack_from("<i", own.get(b"_pr", own.get(b"Ppr", bytes(4))))[0]
+    is_wireframe = bool(own.get(b"Var", b"\0")[0] & 4)
+    return FilePart(primitive, points @ frame[:3, :3].T + frame[:3, 3], frame[:3, 2], is_wireframe)
 
 
 def _matrix(rotation: tuple[float, ...], position: tuple[float, ...] = (0, 0, 0)) -> np.ndarray:

@@ -22,6 +22,7 @@
 #include "scene/loaded_scene.hpp"
 #include "simulation/random_quantities.hpp"
 #include "step_count.hpp"
+#include "world/file_places.hpp"
 
 namespace bubblesim::bindings {
 namespace {
@@ -381,6 +382,7 @@ They stand where the file has them, without a floor. Call it where `reset_world`
            ":raises NoSuchObject: with a list of similar objects.")
       .def_property_readonly("objects", &all_objects, "All objects of the scene.");
 
+  bind_file_collections(simulation);
   module.def("scene_names", &scene_names, "Return the names of all scenes.");
   module.def("scene_folders", &scene_folders, "Return the folders that are searched for scenes.");
 }

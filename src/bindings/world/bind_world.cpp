@@ -10,11 +10,13 @@
 #include <variant>
 
 #include "bindings.hpp"
+#include "bubblesim/error.hpp"
 #include "bubblesim/simulation.hpp"
 #include "bubblesim/world.hpp"
 #include "guarded.hpp"
 #include "numpy_values.hpp"
 #include "world/bind_contacts.hpp"
+#include "world/file_places.hpp"
 #include "world/world_poses.hpp"
 
 namespace bubblesim::bindings {
@@ -58,46 +60,17 @@ std::vector<PluginDescription> plugins(const World& world, ObjectId object) {
   }
 }
 
-/// The place of an object in its file's tree; null if it has none.
-const TreePlace* place_of(const World& world, ObjectId id) {
-  const Object& object = world.tree().at(id);
-  const auto of_part = [](const auto& part) { return part.place ? &*part.place : nullptr; };
-  switch (object.kind) {
-    case ObjectKind::kLink:
-      return of_part(world.models().description(id).links[object.index]);
-    case ObjectKind::kJoint:
-      return of_part(world.models().description(id).joints[object.index]);
-    case ObjectKind::kSensor:
-      return of_part(world.models().sensor_description(id));
-    case ObjectKind::kFrame:
-      return world.frames().place(id);
-    default:
-      return nullptr;
+/// A mass that was set has scaled the inertia of the description.
+std::pair<std::array<double, 9>, std::array<double, 3>> inertia(const World& world, ObjectId link) {
+  const Object& object = world.tree().at(link);
+  if (object.kind != ObjectKind::kLink) {
+    throw WrongObject(world.tree().path(link) + " is a " + std::string(kind_name(object.kind)) + ", not a link");
   }
-}
-
-ObjectId find_old_name(const World& world, const std::string& name) {
-  for (const ObjectId id : world.tree().objects()) {
-    const TreePlace* place = place_of(world, id);
-    if (place != nullptr && place->old_name == name) return id;
-  }
-  return kNoObject;
-}
-
-std::vector<std::tuple<std::string, std::string, std::string>> script_parameters(const World& world, ObjectId object) {
-  std::vector<std::tuple<std::string, std::string, std::string>> found;
-  if (const TreePlace* place = place_of(world, object)) {
-    for (const ScriptParameter& each : place->parameters) found.emplace_back(each.name, each.unit, each.value);
-  }
-  return found;
-}
-
-std::map<std::string, py::bytes> file_data(const World& world, ObjectId object) {
-  std::map<std::string, py::bytes> found;
-  if (const TreePlace* place = place_of(world, object)) {
-    for (const auto& [name, bytes] : place->data) found.emplace(name, py::bytes(bytes));
-  }
-  return found;
+  const LinkDescription& description = world.models().description(link).links[object.index];
+  const Matrix3 m = description.inertia() * (world.properties().mass(link) / description.mass);
+  const Vector3& centre = description.centre_of_mass;
+  return {{m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)},
+          {centre.x(), centre.y(), centre.z()}};
 }
 
 }  // namespace
@@ -311,6 +284,9 @@ void bind_world(py::module_& module) {
           py::arg("gravity"), "Set the gravity, m/s^2, until the world is reset.")
       .def("mass", of_properties(&WorldProperties::mass), py::arg("object"),
            "Return the mass of a link or of all links of a model, kg.")
+      .def("inertia", &inertia, py::arg("link"),
+           "Return the inertia of a link about its centre of mass, along its axes, kg m^2: nine numbers, row by row; "
+           "and the centre of mass in its frame.")
       .def("set_mass", of_properties(&WorldProperties::set_mass), py::arg("object"), py::arg("mass"),
            "Set the mass, kg, until the world is reset; the inertia is scaled. That of a model is scaled as a whole.")
       .def("friction", of_properties(&WorldProperties::friction), py::arg("object"),
@@ -341,21 +317,6 @@ void bind_world(py::module_& module) {
       .def("is_kinematic", of_joints(&WorldJoints::is_kinematic), py::arg("joint"),
            "Return whether a joint has no physics: it moves what is below it only when its position is set.")
       .def(
-          "old_name",
-          [](const World& w, ObjectId id) {
-            const TreePlace* place = place_of(w, id);
-            return place == nullptr ? std::string() : place->old_name;
-          },
-          py::arg("object"),
-          "Return the unique name of an object in an old scene, such as 'wheel#0'; '' if it has none.")
-      .def("find_old_name", &find_old_name, py::arg("name"),
-           "Return the object with a unique name of an old scene, -1 if there is none.")
-      .def(
-          "script_parameters", &script_parameters, py::arg("object"),
-          "Return the parameters that the scene's file gives to the script of an object: (name, unit, value), as text.")
-      .def("file_data", &file_data, py::arg("object"),
-           "Return the bytes that the scene's file attaches to an object, by name.")
-      .def(
           "is_driven_by_callback",
           [](const World& w, ObjectId joint) {
             const std::vector<AxisDescription>& axes = w.joints().description(joint).axes;
@@ -381,6 +342,7 @@ void bind_world(py::module_& module) {
       .def("set_joint_position", of_joints(&WorldJoints::set_position), py::arg("joint"), py::arg("position"))
       .def("set_max_force", of_joints(&WorldJoints::set_max_force), py::arg("joint"), py::arg("force"),
            py::arg("axis") = 0);
+  bind_file_places(world);
 }
 
 }  // namespace bubblesim::bindings

@@ -77,6 +77,7 @@ class DescriptionHash {
     (*this)(s.mu, s.collide_bitmask, s.mu2, s.fdir1, s.slip1, s.slip2, s.torsion, s.torsion_by_depth, s.rolling, s.kp,
             s.kd, s.soft_erp, s.soft_cfm, s.restitution, s.bounce_threshold, s.max_vel, s.min_depth, s.max_contacts,
             s.collide_without_contact);
+    if (s.own_bitmask) (*this)(*s.own_bitmask);
   }
   void add(const CollisionDescription& c) { (*this)(c.name, c.pose, c.geometry, c.surface, c.mesh_collision); }
   void add(const Color& c) { (*this)(c.r, c.g, c.b); }
@@ -145,12 +146,14 @@ class DescriptionHash {
     (*this)(l.name, l.gravity_enabled, l.wind_enabled, l.linear_decay, l.angular_decay, l.pose, l.start, l.mass,
             l.centre_of_mass, l.inertia_diagonal, l.inertia_products, l.collisions, l.visuals, l.sensors, l.lights);
     if (!l.carrier.empty()) add(l.carrier);
+    if (l.start_velocity) (*this)(l.start_velocity->linear, l.start_velocity->angular);
   }
   void add(const MimicDescription& m) { (*this)(m.joint, m.axis, m.multiplier, m.offset, m.reference); }
   void add(const AxisDescription& a) {
     (*this)(a.direction, a.lower, a.upper, a.max_force, a.max_velocity, a.friction, a.damping, a.spring_stiffness,
             a.spring_reference, a.motor, a.mimic);
     if (a.target != 0) (*this)(a.target);
+    if (a.position_gain != kPositionGain) (*this)(a.position_gain);
     if (a.by_callback) (*this)(a.by_callback);
   }
   void add(const JointDescription& j) {

@@ -32,6 +32,8 @@ void check_axis(Checker& checker, const AxisDescription& axis) {
   checker.require(axis.damping >= 0 && within(axis.damping, 1e9), "the damping", text(axis.damping), "0 or more");
   checker.require(axis.spring_stiffness >= 0 && within(axis.spring_stiffness, 1e9), "the spring's stiffness",
                   text(axis.spring_stiffness), "0 or more");
+  checker.require(axis.position_gain >= 0 && within(axis.position_gain, 1e9), "the position gain",
+                  text(axis.position_gain) + " 1/s", "0 or more");
   checker.require(within(axis.spring_reference, kMaxDistance), "the spring's reference", text(axis.spring_reference),
                   "finite and at most 1e6");
 }

@@ -46,6 +46,10 @@ void check_link(Checker& checker, const ModelDescription& model, const LinkDescr
   const std::string path = "/" + model.name + "/" + link.name;
   checker.check_pose(link.pose);
   if (link.start) checker.check_pose(*link.start);
+  if (const auto& velocity = link.start_velocity) {
+    checker.require(velocity->linear.norm() <= kMaxSpeed && velocity->angular.norm() <= kMaxSpeed, "the velocity",
+                    text(velocity->linear) + " m/s, " + text(velocity->angular) + " rad/s", "at most 1e6");
+  }
   if (!model.is_static) {
     checker.require(link.mass > 0 && link.mass <= 1e6, "the mass", text(link.mass) + " kg",
                     "above 0 and at most 1e6 kg");

@@ -36,6 +36,10 @@ void add_joints(const SceneFile& file, const Structure& structure, LeftOut& left
     if (simulated.count(static_cast<int>(i)) > 0 && is_left_over(*joint)) {
       left_out.add("joint with a target velocity that is left over from a run: it starts at rest", alias);
     }
+    const bool has_memory = joint->gains[1] != 0 || joint->gains[2] != 0;
+    if (simulated.count(static_cast<int>(i)) > 0 && joint->control == JointControl::kPosition && has_memory) {
+      left_out.add("position control with gains I or D: only P counts", alias);
+    }
   }
 }
 
@@ -72,13 +76,6 @@ std::vector<std::string> LeftOut::lines() const {
 
 LeftOut left_out_of(const SceneFile& file, const Structure& structure) {
   LeftOut left_out;
-  for (const Body& body : structure.bodies) {
-    const Object& object = file.objects[static_cast<std::size_t>(body.shape)];
-    if (object.as<Shape>()->has_velocity) left_out.add("initial velocity: the body starts at rest", object.alias);
-  }
-  for (const Collection& collection : file.collections) {
-    left_out.add("saved collection: proximity sensors use it, scripts do not find it", collection.name);
-  }
   for (const Object& object : file.objects) {
     if (const std::string kind = object_kind(object); !kind.empty()) left_out.add(kind, object.alias);
     if (const auto* sensor = object.as<VisionSensor>()) {

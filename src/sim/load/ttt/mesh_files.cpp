@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <map>
+#include <utility>
 
 #include "files/file_text.hpp"
 #include "load/ttt/xml_writer.hpp"
@@ -43,9 +46,28 @@ std::string bitmap(const Image& image) {
   return bytes;
 }
 
+/// Whether each edge has a triangle on both sides. Vertices at one place are one.
+bool is_closed(const Part& part) {
+  std::map<std::array<float, 3>, std::uint32_t> places;
+  std::vector<std::uint32_t> merged;
+  merged.reserve(part.vertices->size());
+  for (const auto& vertex : *part.vertices) {
+    merged.push_back(places.emplace(vertex, static_cast<std::uint32_t>(places.size())).first->second);
+  }
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;  // one way counts up, the other way down
+  for (const auto& triangle : *part.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t from = merged[triangle[i]];
+      const std::uint32_t to = merged[triangle[(i + 1) % 3]];
+      edges[{std::min(from, to), std::max(from, to)}] += from < to ? 1 : -1;
+    }
+  }
+  return std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second == 0; });
+}
+
 }  // namespace
 
-std::string MeshFiles::write(const std::string& name, const std::vector<const Part*>& parts) {
+std::string MeshFiles::write(const std::string& name, const std::vector<const Part*>& parts, bool is_seen) {
   std::string text;
   std::size_t first = 1;  // OBJ counts from 1
   std::size_t first_corner = 1;
@@ -56,15 +78,22 @@ std::string MeshFiles::write(const std::string& name, const std::vector<const Pa
     }
     for (const auto& c : part->texture_coordinates) text += "vt " + exact({c[0], c[1]}) + "\n";
     const bool has_coordinates = !part->texture_coordinates.empty();
-    std::size_t corner = first_corner;
-    for (const auto& triangle : *part->triangles) {
-      text += "f";
-      for (const std::uint32_t vertex : triangle) {
-        text += " " + std::to_string(first + vertex);
-        if (has_coordinates) text += "/" + std::to_string(corner++);
+    // Rays pass the backs of triangles: open surfaces, such as lines on a floor, get a second side.
+    const bool has_back = is_seen && !part->is_one_sided && !is_closed(*part);
+    const auto write_side = [&](std::array<std::size_t, 3> order) {
+      std::size_t corner = first_corner;
+      for (const auto& triangle : *part->triangles) {
+        text += "f";
+        for (const std::size_t i : order) {
+          text += " " + std::to_string(first + triangle[i]);
+          if (has_coordinates) text += "/" + std::to_string(corner + i);
+        }
+        corner += 3;
+        text += "\n";
       }
-      text += "\n";
-    }
+    };
+    write_side({0, 1, 2});
+    if (has_back) write_side({0, 2, 1});
     first += part->vertices->size();
     first_corner += part->texture_coordinates.size();
   }

@@ -51,6 +51,19 @@ void read_dependency(const TagList& list, Joint& joint) {
   });
 }
 
+/// P, I, D; those of the block of ODE stand behind its own five numbers.
+void read_gains(const TagList& list, Joint& joint) {
+  constexpr std::size_t kFirst = 5;
+  std::vector<double> gains;
+  if (const std::vector<double> block = list.block("OdN", "_dN"); block.size() >= kFirst + 3) {
+    gains.assign(block.begin() + kFirst, block.begin() + kFirst + 3);
+  }
+  for (const char* tag : {"Dpc", "Dp2"}) {
+    if (gains.empty()) gains = list.numbers(tag, "", 3);
+  }
+  if (!gains.empty()) joint.gains = {std::max(gains[0], 0.0), gains[1], gains[2]};
+}
+
 }  // namespace
 
 Joint read_joint(const TagList& list) {
@@ -83,6 +96,7 @@ Joint read_joint(const TagList& list) {
     joint.spring_stiffness = spring[0];
     joint.spring_damping = spring[1];
   }
+  read_gains(list, joint);
   if (const auto profile = list.numbers("Ruc", "_uc", 3); !profile.empty()) {
     joint.max_velocity = profile[0];
   } else {

@@ -75,7 +75,10 @@ class ShapeReader {
     shape_.is_respondable = (list.u8("Ss3").value_or(list.u8("Ss2").value_or(0)) & 1U) != 0;
     shape_.respondable_mask = list.u16("Dc2").value_or(0xffff);
     const std::vector<double> velocity = list.numbers("Idv", "_dv", 6);
-    shape_.has_velocity = std::any_of(velocity.begin(), velocity.end(), [](double each) { return each != 0; });
+    if (velocity.size() == 6) {
+      shape_.velocity = {velocity[0], velocity[1], velocity[2]};
+      shape_.angular_velocity = {velocity[3], velocity[4], velocity[5]};
+    }
     const TagList geometry = list.list("Ge2");
     if (auto mesh = geometry.item("Gst")) read_mesh(*mesh, true);
     if (auto compound = geometry.item("Gsg")) read_compound(*compound, true, 0);
@@ -120,7 +123,9 @@ class ShapeReader {
     part.frame = mesh.position_first("Ppf", "_pf").value_or(Pose());
     if (!(part.frame.position.norm() <= kMostSize)) part.frame.position = Vector3();
     part.is_convex = (mesh.u8("Va2").value_or(0) & 1U) != 0 || (body.u8("Var").value_or(0) & 4U) != 0;
-    part.is_wireframe = (mesh.u8("Var").value_or(0) & 4U) != 0;
+    const unsigned look = mesh.u8("Var").value_or(0);
+    part.is_wireframe = (look & 4U) != 0;
+    part.is_one_sided = (look & 2U) != 0;
     note_damage(mesh.damage(), [&] { read_primitive(mesh, part); });
     read_color(mesh.list("Cl0"), part);
     note_damage(mesh.damage(), [&] { read_texture(mesh.list("Toj"), part); });

@@ -33,6 +33,7 @@ struct Part {
   bool has_hole = false;  ///< in the primitive
   bool is_convex = false;
   bool is_wireframe = false;  ///< only its edges are drawn
+  bool is_one_sided = false;  ///< its back faces are not drawn
   Rgb color{0.7, 0.7, 0.7};   ///< ambient and diffuse
   Rgb emission{0, 0, 0};
   double opacity = 1;
@@ -44,7 +45,8 @@ struct Part {
 struct Shape {
   bool is_static = true;
   bool is_respondable = false;
-  bool has_velocity = false;           ///< at the start
+  Vector3 velocity;                    ///< m/s, at the start, of the centre of mass, world axes
+  Vector3 angular_velocity;            ///< rad/s, at the start, world axes
   unsigned respondable_mask = 0xffff;  ///< low byte: with shapes of the same tree, high byte: with others
   double mass = 0.001;
   Vector3 centre_of_mass;                 ///< in the shape's frame
@@ -76,7 +78,8 @@ struct Joint {
   double target_position = 0;
   double spring_stiffness = 0;
   double spring_damping = 0;
-  double max_velocity = 0;  ///< of motion profiles; 0: not given
+  double max_velocity = 0;                 ///< of motion profiles; 0: not given
+  std::array<double, 3> gains{0.1, 0, 0};  ///< P, I, D of position control, in a step of the engine
 };
 
 enum class VolumeKind { kPyramid, kCylinder, kDisc, kCone, kRay, kRandomRay };

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "bubblesim/scene.hpp"
 #include "load/ttt/xml_writer.hpp"
 
 namespace bubblesim::ttt {
@@ -24,6 +25,8 @@ const char* type_of(const Joint& joint) {
 }
 
 namespace {
+
+constexpr double kSameGain = 0.1;  // 1/s
 
 const char* motor_of(const Joint& joint) {
   switch (joint.control) {
@@ -53,7 +56,7 @@ void write_limits(pugi::xml_node axis, const Joint& joint, double zero) {
 }
 
 /// `zero`: the position of the file's joint that is 0 here.
-void write_axis(pugi::xml_node element, const Joint& joint, double zero, const JointSite& site) {
+void write_axis(pugi::xml_node element, const Joint& joint, double zero, const JointSite& site, double engine_step) {
   pugi::xml_node axis = element.append_child("axis");
   put(axis, "xyz", "0 0 1");
   write_limits(axis, joint, zero);
@@ -77,6 +80,11 @@ void write_axis(pugi::xml_node element, const Joint& joint, double zero, const J
   }
   if (joint.control == JointControl::kPosition || joint.control == JointControl::kCallback) {
     put(axis, "bubblesim:target", joint.target_position - zero);
+  }
+  // The engine moves a part P of the error in each of its steps.
+  const double gain = joint.gains[0] / engine_step;
+  if (joint.control == JointControl::kPosition && std::abs(gain - kPositionGain) > kSameGain) {
+    put(axis, "bubblesim:position_gain", gain);
   }
 }
 
@@ -108,7 +116,7 @@ void write_joint(pugi::xml_node model, const Connection& connection, const Joint
     if (joint->lead != 0 && joint->type == JointType::kRevolute) {
       put(element, "screw_thread_pitch", 2 * M_PI * joint->lead);
     }
-    write_axis(element, *joint, site.has_loops ? joint->position : 0, site);
+    write_axis(element, *joint, site.has_loops ? joint->position : 0, site, conversion.file.settings.engine_step);
   }
   if (object.as<ForceSensor>() == nullptr) return;
   pugi::xml_node sensor = named(element, "sensor", conversion.names.take(alias + "_sensor"));

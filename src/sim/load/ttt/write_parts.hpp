@@ -50,6 +50,8 @@ void write_place(pugi::xml_node element, int object, Conversion& conversion);
 /// Adds an object without physics; `link` carries it, or nothing if that is empty.
 void write_frame(pugi::xml_node owner, int object, const std::string& link, const Pose& link_pose,
                  Conversion& conversion);
+/// Adds the collections that the file has saved, for scripts.
+void write_collections(pugi::xml_node world, const SceneFile& file);
 /// Completes the proximity sensors that detect only some objects, when all links are written.
 void write_entities(Conversion& conversion);
 /// Adds a light that is on, to the world or to a link.

@@ -20,6 +20,20 @@ const char* frame_kind(const Object& object) {
   return "dummy";
 }
 
+const char* what_of(ElementKind kind) {
+  switch (kind) {
+    case ElementKind::kObject:
+      return "object";
+    case ElementKind::kTree:
+      return "tree";
+    case ElementKind::kChain:
+      return "chain";
+    case ElementKind::kAll:
+      return "all";
+  }
+  return nullptr;
+}
+
 /// The joint of an object that nothing simulates.
 void write_kinematic(pugi::xml_node object, const Joint& described, const Conversion& conversion) {
   pugi::xml_node joint = object.append_child("joint");
@@ -101,6 +115,20 @@ void write_frame(pugi::xml_node owner, int i, const std::string& link, const Pos
   put_pose(element, link_pose.inverse() * conversion.node(i).world);
   if (name != alias) put(element, "bubblesim:alias", alias);
   write_place(element, i, conversion);
+}
+
+void write_collections(pugi::xml_node world, const SceneFile& file) {
+  for (const Collection& collection : file.collections) {
+    pugi::xml_node element = named(world, "bubblesim:collection", plain_text(collection.name));
+    for (const Collection::Element& each : collection.elements) {
+      const char* what = what_of(each.kind);
+      if (what == nullptr) continue;
+      pugi::xml_node item = element.append_child("item");
+      put(item, "what", what);
+      if (each.kind != ElementKind::kAll) put(item, "id", each.object);
+      if (!each.adds) put(item, "removes", "true");
+    }
+  }
 }
 
 }  // namespace bubblesim::ttt

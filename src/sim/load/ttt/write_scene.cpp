@@ -32,6 +32,7 @@ class ModelWriter {
     model_pose_ = is_static_ || group_.fixed != kNone ? c_.node(leader).world : at_zero(group_.bodies.front());
     put_pose(model_, model_pose_);
     if (is_static_) put(model_, "static", "true");
+    if (group_.bodies.size() > 1) put(model_, "self_collide", "true");
     for (const int i : group_.bodies) links_[i] = c_.names.take(c_.object(body(i).shape).alias);
     if (group_.fixed != kNone) {
       links_[kWorld] = c_.names.take(c_.object(group_.fixed).alias);
@@ -212,16 +213,28 @@ class ModelWriter {
     }
   }
 
-  /// The positions of the joints in the file.
+  /// The positions of the joints in the file, and what moves at the start.
   void write_state(const std::string& name) {
     const bool moved = std::any_of(group_.bodies.begin(), group_.bodies.end(), [this](int i) {
       const Pose gap = at_zero(i).inverse() * in_file(i);
-      return gap.position.norm() > 1e-9 || gap.orientation.vec().norm() > 1e-9;
+      return gap.position.norm() > 1e-9 || gap.orientation.vec().norm() > 1e-9 || has_velocity(i);
     });
     if (!moved) return;
     pugi::xml_node model = named(state_, "model", name);
-    for (const int i : group_.bodies) put_pose(named(model, "link", links_.at(i)), in_file(i));
+    for (const int i : group_.bodies) {
+      pugi::xml_node link = named(model, "link", links_.at(i));
+      put_pose(link, in_file(i));
+      if (!has_velocity(i)) continue;
+      // SDFormat's is that of the link's origin.
+      const Shape& moving = shape(i);
+      const Vector3& turn = moving.angular_velocity;
+      const Vector3 v = moving.velocity - turn.cross(in_file(i).orientation * moving.centre_of_mass);
+      put(link, "velocity", exact({v.x(), v.y(), v.z(), turn.x(), turn.y(), turn.z()}));
+    }
   }
+
+  const Shape& shape(int i) const { return *c_.object(body(i).shape).as<Shape>(); }
+  bool has_velocity(int i) const { return shape(i).velocity.norm() > 0 || shape(i).angular_velocity.norm() > 0; }
 
   pugi::xml_node world_;
   pugi::xml_node state_;
@@ -264,6 +277,7 @@ std::vector<std::string> write_scene(const SceneFile& file, const std::string& n
     if (conversion.placed.count(i) == 0) write_frame(world, i, "", Pose(), conversion);
   }
   write_entities(conversion);
+  write_collections(world, file);
   if (state.first_child()) {
     state.append_attribute("world_name").set_value(plain_name(name).c_str());
     world.append_move(state);

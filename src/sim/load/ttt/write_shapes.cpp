@@ -107,31 +107,36 @@ class ShapeWriter {
 
   static bool has_mesh(const Part& part) { return !part.triangles->empty(); }
 
-  pugi::xml_node collision(const Pose& pose, unsigned mask) {
+  /// `mask`: for other trees, `own`: for shapes of its own.
+  pugi::xml_node collision(const Pose& pose, unsigned mask, unsigned own) {
     pugi::xml_node element = named(link_, "collision", next_name("collision"));
     put_pose(element, pose);
     pugi::xml_node surface = element.append_child("surface");
     put(surface.append_child("friction").append_child("ode"), "mu",
         friction_of(shape_, conversion_.file.settings.engine));
-    put(surface.append_child("contact"), "collide_bitmask", mask);
+    pugi::xml_node contact = surface.append_child("contact");
+    put(contact, "collide_bitmask", mask);
+    if (!kind_.is_static) put(contact, "bubblesim:own_bitmask", own);
     return element;
   }
 
   void write_collision(const Part& part) {
     const unsigned mask = shape_.respondable_mask >> 8U;
-    if (mask == 0) return;
+    const unsigned own = shape_.respondable_mask & 0xffU;
+    if (mask == 0 && own == 0) return;
     if (is_plain(part)) {
-      const bool rolls = kind_.is_wheel && part.primitive == PrimitiveKind::kCylinder && part.size.z() < part.size.x();
+      const bool rolls =
+          kind_.is_wheel && mask != 0 && part.primitive == PrimitiveKind::kCylinder && part.size.z() < part.size.x();
       constexpr double kWithinSphere = 0.96;
-      pugi::xml_node element = collision(in_link_ * plain_pose(part), kind_.is_static ? mask | kGroundBit : mask);
+      pugi::xml_node element = collision(in_link_ * plain_pose(part), kind_.is_static ? mask | kGroundBit : mask, own);
       write_plain(element.append_child("geometry"), part, rolls ? kWithinSphere : 1);
       if (!rolls) return;
       // A cylinder scrubs along its width when a robot turns; a sphere of its radius rolls about one point.
       pugi::xml_node sphere =
-          collision(in_link_ * part.frame, kGroundBit).append_child("geometry").append_child("sphere");
+          collision(in_link_ * part.frame, kGroundBit, 0).append_child("geometry").append_child("sphere");
       put(sphere, "radius", part.size.x() / 2);
     } else if (has_mesh(part)) {
-      pugi::xml_node element = collision(in_link_, kind_.is_static ? mask | kGroundBit : mask);
+      pugi::xml_node element = collision(in_link_, kind_.is_static ? mask | kGroundBit : mask, own);
       pugi::xml_node mesh = element.append_child("geometry").append_child("mesh");
       put(mesh, "uri", conversion_.meshes.write(name_ + "_collision", {&part}));
       const bool is_convex = part.is_convex || (!part.has_hole && (part.primitive == PrimitiveKind::kCylinder ||
@@ -158,7 +163,7 @@ class ShapeWriter {
     for (const auto& [look, parts] : meshes) {
       pugi::xml_node element = visual(in_link_, *parts.front(), std::get<std::string>(look));
       put(element.append_child("geometry").append_child("mesh"), "uri",
-          conversion_.meshes.write(name_ + "_visual", parts));
+          conversion_.meshes.write(name_ + "_visual", parts, true));
     }
   }
 

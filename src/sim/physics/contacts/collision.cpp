@@ -53,7 +53,7 @@ void touch(void* data, dGeomID first, dGeomID second) {
   if (collider_of(second).number < collider_of(first).number) std::swap(first, second);
   const Collider& a = collider_of(first);
   const Collider& b = collider_of(second);
-  if (a.link == b.link) return;
+  if (a.link == b.link || !share_bits(a, b)) return;
   // Static shapes come second: those that move with a model do not collide with it.
   if (b.carrier != kNoObject && a.model != Collider::kNoModel && substep.moving.at(a.model).object == b.carrier) {
     return;

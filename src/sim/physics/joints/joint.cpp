@@ -11,8 +11,6 @@
 namespace bubblesim {
 namespace {
 
-/// Time constant of position control in s: one default simulation step.
-constexpr double kServoTime = 0.05;
 /// rad/s^2 or m/s^2. A stop takes part in a substep if the axis can reach it with this acceleration or twice its speed.
 constexpr double kReachOfStop = 1000;
 
@@ -179,7 +177,8 @@ void Joint::drive_motor(int index, double step) {
   const double gap = has_limits(description)
                          ? std::clamp(axis.target_position, description.lower, description.upper) - here
                          : shortest_turn(here, axis.target_position);
-  axis.motor->aim(target_speed(description, gap / std::max(kServoTime / axis.gain, step)));
+  const double time = 1 / (axis.gain * description.position_gain);
+  axis.motor->aim(target_speed(description, gap / std::max(time, step)));
 }
 
 void Joint::follow_leader(int index, double step) {

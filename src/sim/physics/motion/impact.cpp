@@ -92,13 +92,7 @@ class ImpactSearch {
 
   /// As in collision.cpp: shapes that do not touch cannot stop each other.
   static bool may_touch(const Collider& a, const Collider& b) {
-    if (a.link == b.link) return false;
-    dGeomID geom_a = a.geom.get();
-    dGeomID geom_b = b.geom.get();
-    if ((dGeomGetCategoryBits(geom_a) & dGeomGetCollideBits(geom_b)) == 0 &&
-        (dGeomGetCategoryBits(geom_b) & dGeomGetCollideBits(geom_a)) == 0) {
-      return false;
-    }
+    if (a.link == b.link || !share_bits(a, b)) return false;
     dBodyID body_b = b.link->body.get();
     return body_b == nullptr || dAreConnectedExcluding(a.link->body.get(), body_b, dJointTypeContact) == 0;
   }

@@ -39,6 +39,21 @@ struct Collider {
   const Surface& surface() const { return own_surface == nullptr ? given_surface : *own_surface; }
 };
 
+/// ODE's: below those for other models, above those for shapes of the same one.
+constexpr unsigned kOwnBits = 16;
+inline unsigned long collide_bits(const Surface& surface) {
+  if (surface.collide_without_contact) return 0;
+  const unsigned long own = surface.own_bitmask.value_or(surface.collide_bitmask);
+  return surface.collide_bitmask | own << kOwnBits;
+}
+
+/// Whether two shapes collide by their bits. ODE skips pairs without any common bit before.
+inline bool share_bits(const Collider& a, const Collider& b) {
+  const unsigned long shared = dGeomGetCategoryBits(a.geom.get()) & dGeomGetCategoryBits(b.geom.get());
+  const bool are_of_one = a.model == b.model && a.model != Collider::kNoModel;
+  return (are_of_one ? shared >> kOwnBits : shared & ((1UL << kOwnBits) - 1)) != 0;
+}
+
 inline const Collider& collider_of(dGeomID geom) { return *static_cast<const Collider*>(dGeomGetData(geom)); }
 
 }  // namespace bubblesim

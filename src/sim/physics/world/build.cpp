@@ -140,10 +140,17 @@ class ModelBuilder {
     model_.described_sensors.push_back(&sensor);
   }
 
-  /// Sets the initial pose. Call it after the joints are created: their zero positions are those of the description.
+  /// Sets the initial pose and velocity. Call it after the joints are created: their zero positions are those of the
+  /// description.
   void start_at(const LinkDescription& description, const Link& link) const {
-    if (!description.start || link.body == nullptr) return;
-    place_body(link.body.get(), description, model_.description.pose * *description.start);
+    if (link.body == nullptr) return;
+    if (description.start) place_body(link.body.get(), description, model_.description.pose * *description.start);
+    if (!description.start_velocity) return;
+    const auto& [linear, angular] = *description.start_velocity;
+    const Vector3 arm = link_pose(link).orientation * description.centre_of_mass;
+    const Vector3 at_centre = linear + angular.cross(arm);
+    dBodySetLinearVel(link.body.get(), at_centre.x(), at_centre.y(), at_centre.z());
+    dBodySetAngularVel(link.body.get(), angular.x(), angular.y(), angular.z());
   }
 
   void add_collider(const Link& link, const CollisionDescription& description, bool watched) {
@@ -157,7 +164,7 @@ class ModelBuilder {
     dGeomID geom = collider.geom.get();
     dGeomSetData(geom, &collider);
     // Pairs of shapes without a common bit are skipped before any other test.
-    const unsigned long bits = description.surface.collide_without_contact ? 0 : description.surface.collide_bitmask;
+    const unsigned long bits = collide_bits(description.surface);
     dGeomSetCategoryBits(geom, bits);
     dGeomSetCollideBits(geom, bits);
     if (std::holds_alternative<Plane>(description.geometry)) {

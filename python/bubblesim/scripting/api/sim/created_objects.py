@@ -129,8 +129,29 @@ class CreatedObjectFunctions(ObjectChangeFunctions, LogFunctions):
 
     @refusal_warns
     def removeModel(self, handle: Handle, delayed: bool = False) -> int:
-        """Remove a model with all its objects, or a dummy; return 1."""
-        return self.removeObjects([handle])
+        """Remove a model with all its objects, or a dummy; return 1.
+
+        Of a scene of CoppeliaSim, what is below an object in the tree is removed with it, also what nothing connects.
+        """
+        base = self._resolve(handle)
+        models = self._models_below(base)
+        if base in self._edits.foreign or len(models) < 2:
+            return self.removeObjects([handle])
+        roots = self._tree.children(self.handle_world)
+        others = {each for root in roots for each in self._tree.with_all_below(root)}
+        others -= set(self._tree.with_all_below(base))
+        for model in models:
+            if beside := others.intersection(self._world.parts(model, "link")):
+                path, other = self._tree.short_path(base), self._tree.short_path(min(beside))
+                raise WrongObject(f"{path} cannot be removed on its own: it is connected with {other}")
+        for model in models:
+            self._remove_model(model)
+        return 1
+
+    def _models_below(self, base: int) -> list[int]:
+        """Return what moves together, of an object and all below it."""
+        models = (self._tree.model(each) for each in self._tree.with_all_below(base) if self._tree.has_body(each))
+        return [model for model in dict.fromkeys(models) if model >= 0]
 
     def copyPasteObjects(self, handles: Integers, options: int = 0) -> list[int]:
         """Copy dummies and whole models where they are; return the handles of the copies.

@@ -72,11 +72,11 @@ class DistanceFunctions(ObjectChangeFunctions, CollectionFunctions, LogFunctions
         return 0, 0.0
 
     def getCollectionHandle(self, name: str) -> int:
-        """Return the handle of a collection of the scene's file, empty at the first call: those of
-        files are not read (old name of createCollection)."""
+        """Return the handle of a collection of the scene's file, or of a collection that setCollectionName has named;
+        an empty collection is created if none has the name (old name of createCollection)."""
         made = self._caller.shared.collections.by_name
         if name not in made or made[name] not in self._caller.shared.collections.by_handle:
-            made[name] = self.createCollection(0)
+            made[name] = self._saved_collection(name)
         return made[name]
 
     def getShapeBB(self, shape: Handle) -> list[float]:
@@ -96,10 +96,14 @@ class DistanceFunctions(ObjectChangeFunctions, CollectionFunctions, LogFunctions
 
     def getShapeMassAndInertia(self, shape: Handle, matrix: object = None) -> tuple[float, list[float], list[float]]:
         """Return mass (kg), inertia (kg m^2, a 3x3 matrix about the centre of mass, in the shape's axes) and the
-        centre of mass in the shape's frame (old style). The inertia is that of a box of this size with even
-        density."""
+        centre of mass in the shape's frame (old style). The inertia of a model, or of a shape that is no body, is that
+        of a box of its size with even density."""
         handle = self._resolve(shape)
         mass = self.getShapeMass(shape)
+        links = self._links(handle)
+        if links == [handle] and not self._world.is_static(self._tree.model(handle)):
+            of_file, middle = self._world.inertia(handle)
+            return mass, list(of_file), list(middle)
         low, high = self._bounds(handle)
         x, y, z = (b - a for a, b in zip(low, high, strict=True))
         moments = [mass / 12 * (y * y + z * z), mass / 12 * (x * x + z * z), mass / 12 * (x * x + y * y)]

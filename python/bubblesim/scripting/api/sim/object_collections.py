@@ -77,6 +77,18 @@ class CollectionFunctions(ApiContext):
         names[name] = collection
         return 1
 
+    def _saved_collection(self, name: str) -> int:
+        """Create a collection as the scene's file has it; an empty one if it has none of that name."""
+        handle = self.createCollection(0)
+        kinds = {"object": self.handle_single, "tree": self.handle_tree, "chain": self.handle_chain}
+        for saved, items in self._simulation.file_collections():
+            if saved == name:
+                self._collection(handle).items += [
+                    Item(kinds.get(what, self.handle_all), base, removes=removes, without_base=False)
+                    for what, base, removes in items
+                ]
+        return handle
+
     def _collection(self, handle: int) -> Collection:
         try:
             return self._caller.shared.collections.by_handle[handle]

@@ -98,11 +98,11 @@ class SignalFunctions(ApiContext):
         self._clear(int, name)
 
     def getSignalName(self, index: int, kind: int = 3) -> str | None:
-        """Return the name of the signal with an index from 0 among the integers (``kind`` 0), numbers (1 or 2) or
-        strings (3); None (nil) behind the last one."""
-        kinds = {0: int, 1: float, 2: float, 3: str}
+        """Return the name of the signal with an index from 0 among the integers (``kind`` 0), numbers (1) or strings (2
+        or 3); None (nil) behind the last one."""
+        kinds = {0: int, 1: float, 2: str, 3: str}
         if kind not in kinds:
-            raise ValueError(f"{kind} is not a kind of signals: 0 integers, 1 and 2 numbers, 3 strings")
+            raise ValueError(f"{kind} is not a kind of signals: 0 integers, 1 numbers, 2 and 3 strings")
         names = [name for of, name in self._caller.shared.signals if of is kinds[kind]]
         return names[index] if 0 <= index < len(names) else None
 

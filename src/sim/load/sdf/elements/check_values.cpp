@@ -6,8 +6,10 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 #include "bubblesim/nearest_names.hpp"
@@ -16,9 +18,12 @@
 namespace bubblesim {
 namespace {
 
-/// The only element of bubblesim that may occur several times in its parent.
-constexpr const char* kRandomize = "bubblesim:randomize";
-constexpr const char* kObject = "bubblesim:object";
+/// The elements of bubblesim that may occur several times in their parent.
+constexpr std::string_view kRepeated[] = {"bubblesim:randomize", "bubblesim:object", "bubblesim:collection"};
+
+bool is_repeated(std::string_view name) {
+  return std::find(std::begin(kRepeated), std::end(kRepeated), name) != std::end(kRepeated);
+}
 
 std::optional<std::vector<double>> numbers_in(const std::string& text) {
   std::vector<double> numbers;
@@ -267,7 +272,7 @@ void check_values(XmlElement& element, const ElementKind& kind, const std::strin
     if (is_own_element(child.name)) {
       if (known == nullptr) {
         context.report(child.source(), path, own_problem(child, element));
-      } else if (child.name != kRandomize && child.name != kObject && element.child(child.name) != &child) {
+      } else if (!is_repeated(child.name) && element.child(child.name) != &child) {
         context.report(child.source(), path, "<" + child.name + "> occurs twice");
       }
       continue;

@@ -210,6 +210,7 @@ const char* const kModelTable = R"TABLE(
     dissipation number 1 ~ stops are rigid
   bubblesim:motor text
   bubblesim:target number
+  bubblesim:position_gain number
 
 =joint
   @name text

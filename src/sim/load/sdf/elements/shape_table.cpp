@@ -109,6 +109,7 @@ const char* const kShapeTable = R"TABLE(
     collide_without_contact flag false
     collide_without_contact_bitmask integer 1 ~ collide_without_contact holds for all shapes
     collide_bitmask integer 65535
+    bubblesim:own_bitmask integer
     category_bitmask integer 65535 ~ collide_bitmask is used
     poissons_ratio number 0.3 ~ contacts are not elastic bodies
     elastic_modulus number -1 ~ contacts are not elastic bodies

@@ -103,6 +103,12 @@ const char* const kWorldTable = R"TABLE(
     bubblesim:randomize any
     bubblesim:object none
       &object
+    bubblesim:collection none
+      @name text
+      item none
+        what text object
+        id integer -1
+        removes flag false
   model none
     &model
   light none

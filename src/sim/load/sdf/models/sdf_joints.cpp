@@ -164,6 +164,7 @@ class JointReader {
     description.mimic = read_mimic(axis, path_, context_);
     if (const auto motor = own_text(axis, "bubblesim:motor")) read_motor(axis, *motor, description);
     description.target = own_number(axis, "bubblesim:target", path_, context_).value_or(0);
+    description.position_gain = own_number(axis, "bubblesim:position_gain", path_, context_).value_or(kPositionGain);
     return description;
   }
 

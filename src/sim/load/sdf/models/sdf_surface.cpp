@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "load/sdf/elements/own_elements.hpp"
+#include "scene/describe.hpp"
 
 namespace bubblesim {
 namespace {
@@ -28,12 +29,11 @@ void read_torsion(const SdfElement& torsional, Surface& surface) {
   }
 }
 
-std::uint16_t read_bitmask(const SdfElement& contact, const std::string& path, LoadContext& context) {
+std::uint16_t bitmask_of(double mask, const Source& source, const std::string& name, const std::string& path,
+                         LoadContext& context) {
   constexpr double kAllBits = 0xffff;
-  const double mask = contact.number("collide_bitmask");
   if (mask >= 0 && mask <= kAllBits) return static_cast<std::uint16_t>(mask);
-  context.report(contact.source("collide_bitmask"), path,
-                 "<collide_bitmask> is " + contact.text("collide_bitmask") + ", it must be 0 to 65535 (16 bits)");
+  context.report(source, path, "<" + name + "> is " + text(mask) + ", it must be 0 to 65535 (16 bits)");
   return 0;
 }
 
@@ -62,7 +62,12 @@ Surface read_surface(const SdfElement& collision, const std::string& path, LoadC
   const SdfElement contact = element.child("contact");
   if (!contact) return surface;
   surface.collide_without_contact = contact.flag("collide_without_contact");
-  surface.collide_bitmask = read_bitmask(contact, path, context);
+  surface.collide_bitmask = bitmask_of(contact.number("collide_bitmask"), contact.source("collide_bitmask"),
+                                       "collide_bitmask", path, context);
+  if (const auto own = own_number(contact, "bubblesim:own_bitmask", path, context)) {
+    const Source source = contact.source("bubblesim:own_bitmask");
+    surface.own_bitmask = bitmask_of(*own, source, "bubblesim:own_bitmask", path, context);
+  }
   const SdfElement ode = contact.child("ode");
   surface.kp = given(ode, "kp");
   surface.kd = given(ode, "kd");

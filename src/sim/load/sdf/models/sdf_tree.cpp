@@ -113,4 +113,25 @@ std::vector<FrameDescription> read_objects(const SdfElement& owner, const std::s
   return frames;
 }
 
+std::vector<CollectionDescription> read_collections(const SdfElement& world, LoadContext& context) {
+  const std::vector<std::string> known = {"object", "tree", "chain", "all"};
+  std::vector<CollectionDescription> collections;
+  for (const SdfElement& element : world.children("bubblesim:collection")) {
+    CollectionDescription collection{element.name(), {}};
+    for (const SdfElement& item : element.children("item")) {
+      const std::string what = item.text("what");
+      const auto found = std::find(known.begin(), known.end(), what);
+      if (found == known.end()) {
+        context.report(item.source("what"), "",
+                       "<what> is '" + what + "', it must be " + joined(known, " or ") + did_you_mean(what, known));
+        continue;
+      }
+      collection.items.push_back({static_cast<CollectionDescription::What>(found - known.begin()),
+                                  static_cast<int>(item.number("id")), item.flag("removes")});
+    }
+    collections.push_back(std::move(collection));
+  }
+  return collections;
+}
+
 }  // namespace bubblesim

@@ -18,4 +18,7 @@ std::optional<TreePlace> read_place(const SdfElement& element);
 /// The <bubblesim:object>s of a model or world at `path`.
 std::vector<FrameDescription> read_objects(const SdfElement& owner, const std::string& path, LoadContext& context);
 
+/// The <bubblesim:collection>s of a world.
+std::vector<CollectionDescription> read_collections(const SdfElement& world, LoadContext& context);
+
 }  // namespace bubblesim

@@ -13,6 +13,14 @@ std::optional<Pose> pose_in(const SdfElement& element) {
   return element.has("pose") ? std::make_optional(element.child("pose").as_pose()) : std::nullopt;
 }
 
+/// Not a pose, though SDFormat writes it as one: angular velocities are no angles.
+Twist twist_in(const SdfElement& velocity) {
+  std::vector<double> n;
+  read_numbers(velocity.as_text(), n);
+  n.resize(6);
+  return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+}
+
 template <class Part>
 Part* named(std::vector<Part>& parts, const std::string& name) {
   const auto found = std::find_if(parts.begin(), parts.end(), [&name](const Part& part) { return part.name == name; });
@@ -50,10 +58,9 @@ class ModelState {
   void put(const std::string& name, const SdfElement& state) {
     LinkDescription* link = named(model_.links, name);
     if (link == nullptr) return warn(state, "the <state> names '" + name + "', which is not a link of it");
-    const Pose velocity = state.child("velocity").as_pose();
-    if (velocity.position.norm() > kMoving || to_rpy(velocity.orientation).norm() > kMoving) {
-      warn(state, "the <velocity> of '" + name + "' in the <state> is ignored: the link starts at rest");
-    }
+    const Twist velocity = twist_in(state.child("velocity"));
+    const bool moves = velocity.linear.norm() > kMoving || velocity.angular.norm() > kMoving;
+    if (moves && !model_.is_static) link->start_velocity = velocity;
     const auto pose = pose_in(state);
     if (!pose) return;
     const Pose in_model = model_.pose.inverse() * *pose;

@@ -148,6 +148,7 @@ std::optional<double> read_world(const SdfElement& world, SceneDescription& scen
   read_models(world, frames, scene, context);
   scene.frames = read_objects(world, "", context);
   separate_included_places(scene);
+  scene.collections = read_collections(world, context);
   read_foreign_models(world, frames, scene, context);
   apply_state(world, scene.models, context);
   return substeps;
