@@ -23,6 +23,8 @@ def test_its_core_is_configured_without_ros(tmp_path: Path) -> None:
     assert run.returncode == 0, run.stderr
     assert (tmp_path / "meta" / "tables" / "package_control_msgs.cpp").is_file()
     assert "catkin_DIR" not in (tmp_path / "CMakeCache.txt").read_text()
+    flags = (tmp_path / "src" / "sim" / "CMakeFiles" / "bubblesim_load.dir" / "flags.make").read_text()
+    assert f'"{REPOSITORY}' not in flags.replace("\\", "")  # wheels of other clones are equal
 
 
 def test_it_has_the_version_of_the_package() -> None:
