@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Details of files of CoppeliaSim: velocities at the start, gains of motors, collections, both sides of surfaces."""
+"""Details of files of CoppeliaSim: velocities at the start, gains of motors, collections, both sides of flat surfaces."""
 
 import math
 import struct
@@ -94,21 +94,24 @@ def test_scripts_find_saved_collections(tmp_path: Path) -> None:
 
 CORNERS = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
 TRIANGLE = [(0, 2, 1)]  # seen from below
+CORNER = [(0, 2, 1), (0, 1, 3)]  # such as the body round a lidar
 TETRAHEDRON = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
 
 
-@pytest.mark.parametrize(("triangles", "faces"), [(TRIANGLE, 2), (TETRAHEDRON, 4)], ids=["open", "closed"])
-def test_open_surfaces_are_seen_from_both_sides(
-    tmp_path: Path, triangles: list[tuple[int, int, int]], faces: int
+@pytest.mark.parametrize(
+    ("triangles", "faces"),
+    [(TRIANGLE, [(1, 3, 2), (1, 2, 3)]), (CORNER, [(1, 3, 2), (1, 2, 4)]), (TETRAHEDRON, None)],
+    ids=["flat", "open", "closed"],
+)
+def test_flat_surfaces_are_seen_from_both_sides(
+    tmp_path: Path, triangles: list[tuple[int, int, int]], faces: list[tuple[int, int, int]] | None
 ) -> None:
     file = write(tmp_path / "mesh.ttt", arrays((CORNERS, triangles)), thing("SHP", 1, -1, "Sheet", mesh(0)))
     run = program("convert", file, tmp_path / "made")
     assert run.returncode == 0, run.stderr
     lines = (tmp_path / "made" / "meshes" / "Sheet_visual.obj").read_text().splitlines()
     found = [tuple(int(number) for number in line.split()[1:]) for line in lines if line.startswith("f")]
-    assert len(found) == faces
-    if faces == 2:
-        assert found == [(1, 3, 2), (1, 2, 3)]
+    assert found == (faces or [tuple(vertex + 1 for vertex in triangle) for triangle in triangles])
 
 
 REMOVES = """sim=require'sim'

@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
-#include <map>
-#include <utility>
 
 #include "files/file_text.hpp"
 #include "load/ttt/xml_writer.hpp"
@@ -46,23 +45,34 @@ std::string bitmap(const Image& image) {
   return bytes;
 }
 
-/// Whether each edge has a triangle on both sides. Vertices at one place are one.
-bool is_closed(const Part& part) {
-  std::map<std::array<float, 3>, std::uint32_t> places;
-  std::vector<std::uint32_t> merged;
-  merged.reserve(part.vertices->size());
-  for (const auto& vertex : *part.vertices) {
-    merged.push_back(places.emplace(vertex, static_cast<std::uint32_t>(places.size())).first->second);
-  }
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;  // one way counts up, the other way down
+/// Whether all triangles lie in a plane.
+bool is_flat(const Part& part) {
+  constexpr double kFlat = 1e-3;  // of the greatest extent
+  const auto place = [&part](std::uint32_t vertex) {
+    const auto& v = (*part.vertices)[vertex];
+    return Vector3(v[0], v[1], v[2]);
+  };
+  Vector3 normal;  // of the largest triangle
+  Vector3 on_plane;
   for (const auto& triangle : *part.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t from = merged[triangle[i]];
-      const std::uint32_t to = merged[triangle[(i + 1) % 3]];
-      edges[{std::min(from, to), std::max(from, to)}] += from < to ? 1 : -1;
+    const Vector3 first = place(triangle[0]);
+    const Vector3 area = (place(triangle[1]) - first).cross(place(triangle[2]) - first);
+    if (area.squaredNorm() <= normal.squaredNorm()) continue;
+    normal = area;
+    on_plane = first;
+  }
+  if (normal == Vector3::Zero()) return false;
+  normal.normalize();
+  double extent = 0;
+  double distance = 0;
+  for (const auto& triangle : *part.triangles) {
+    for (const std::uint32_t vertex : triangle) {
+      const Vector3 from_plane = place(vertex) - on_plane;
+      extent = std::max(extent, from_plane.norm());
+      distance = std::max(distance, std::abs(normal.dot(from_plane)));
     }
   }
-  return std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second == 0; });
+  return distance <= kFlat * extent;
 }
 
 }  // namespace
@@ -78,8 +88,9 @@ std::string MeshFiles::write(const std::string& name, const std::vector<const Pa
     }
     for (const auto& c : part->texture_coordinates) text += "vt " + exact({c[0], c[1]}) + "\n";
     const bool has_coordinates = !part->texture_coordinates.empty();
-    // Rays pass the backs of triangles: open surfaces, such as lines on a floor, get a second side.
-    const bool has_back = is_seen && !part->is_one_sided && !is_closed(*part);
+    // Rays pass the backs of triangles: flat ones, such as lines on a floor, get a second side. Other surfaces do not:
+    // the lidars of many scenes look out of an open body.
+    const bool has_back = is_seen && !part->is_one_sided && is_flat(*part);
     const auto write_side = [&](std::array<std::size_t, 3> order) {
       std::size_t corner = first_corner;
       for (const auto& triangle : *part->triangles) {

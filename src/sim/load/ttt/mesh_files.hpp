@@ -19,7 +19,7 @@ class MeshFiles {
   MeshFiles(std::filesystem::path folder, const SceneFile& file) : folder_(std::move(folder)), file_(file) {}
 
   /// Writes one OBJ file of several parts, in the frame of their shape; returns its path from the folder. `is_seen`: of
-  /// open surfaces both sides.
+  /// flat ones both sides.
   std::string write(const std::string& name, const std::vector<const Part*>& parts, bool is_seen = false);
   /// Writes the texture of a part; empty when it has none that can be shown.
   std::string texture(const Part& part);
