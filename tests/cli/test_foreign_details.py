@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Details of files of CoppeliaSim: velocities at the start, gains of motors, collections, both sides of flat surfaces."""
+"""Details of files of CoppeliaSim: velocities, gains of motors, collections, both sides of flat surfaces."""
 
 import math
 import struct

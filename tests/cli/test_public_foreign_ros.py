@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A public Pioneer of CoppeliaSim whose own scripts drive it by topics of ROS, and publish its odometry and its lidar."""
+"""A public Pioneer of CoppeliaSim whose own scripts drive it by topics of ROS, and publish odometry and lidar."""
 
 import math
 from pathlib import Path

@@ -131,14 +131,16 @@ TEST_F(ModelIncludes, ProblemsInsideAModelAreReportedInItsFile) {
 const std::string kModelWithPlaces =
     "<sdf version='1.9' xmlns:bubblesim='https://bubblesim'><model name='arm'>"
     "<bubblesim:is_object>false</bubblesim:is_object><link name='base'><bubblesim:alias>Arm</bubblesim:alias>"
-    "<bubblesim:place><id>5</id></bubblesim:place></link><bubblesim:object name='tip'><kind>dummy</kind><link>base</link>"
+    "<bubblesim:place><id>5</id></bubblesim:place></link><bubblesim:object "
+    "name='tip'><kind>dummy</kind><link>base</link>"
     "<bubblesim:place><id>7</id><parent>5</parent></bubblesim:place></bubblesim:object></model></sdf>";
 
 TEST_F(ModelIncludes, OfOneModelWithPlacesHaveATreeEach) {
   write("scene/arm.sdf", kModelWithPlaces);
   const SceneDescription scene = load(
       "<include><uri>arm.sdf</uri><name>left</name></include><include><uri>arm.sdf</uri><name>right</name></include>"
-      "<bubblesim:object name='mark'><kind>dummy</kind><bubblesim:place><id>8</id></bubblesim:place></bubblesim:object>");
+      "<bubblesim:object "
+      "name='mark'><kind>dummy</kind><bubblesim:place><id>8</id></bubblesim:place></bubblesim:object>");
   ASSERT_EQ(scene.models.size(), 2u);
   const auto base = [&](int i) { return *scene.models[i].links[0].place; };
   const auto tip = [&](int i) { return *scene.models[i].frames[0].place; };

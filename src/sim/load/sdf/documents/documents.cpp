@@ -76,7 +76,8 @@ void override_by(const XmlElement& include, XmlElement& model) {
     if (child.name == "pose" || child.name == "static" || is_own_element(child.name)) model.replace_child(child);
   }
   // Scripts do not see such a model itself: its name is that of the object at its top.
-  const bool is_object = model.child("bubblesim:is_object") == nullptr || is_true(model.child_text("bubblesim:is_object"));
+  const bool is_object =
+      model.child("bubblesim:is_object") == nullptr || is_true(model.child_text("bubblesim:is_object"));
   const std::string& name = include.child_text("name");
   if (!is_object && !name.empty() && include.child("bubblesim:alias") == nullptr) {
     model.add_child("bubblesim:alias", name);
