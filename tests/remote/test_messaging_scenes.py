@@ -133,6 +133,19 @@ def test_clients_move_three_arms_at_once(node: RemoteNode) -> None:
     assert found["tip"] == pytest.approx([0, 0, 0], abs=2e-3)
 
 
+def test_a_movement_waits_for_the_start_but_not_for_long(node: RemoteNode) -> None:
+    sim = load(node, "movement")
+    joint = sim.getObject("/blueRobot/joint", {"index": 0})
+    movement = {"joints": [joint], "targetPos": [0.5], "maxVel": [1.0], "maxAccel": [1.0], "maxJerk": [10.0]}
+    with pytest.raises(Exception, match="the simulation is stopped, its time does not pass"):
+        sim.moveToConfig(movement)
+    start = threading.Timer(0.5, node.sim().startSimulation)
+    start.start()
+    sim.moveToConfig(movement)
+    start.join()
+    assert sim.getJointPosition(joint) == pytest.approx(0.5, abs=0.01)
+
+
 def test_a_tip_follows_a_target_that_a_client_moves(tmp_path: Path) -> None:
     with RemoteNode(tmp_path, "--speed", "max", scene="p3dx_floor") as node:
         sim = load(node, "ikMovement")

@@ -24,6 +24,9 @@ from bubblesim.scripting.api.waiting_functions import Waiting
 _TOLERANCE = 1e-6  # of a step
 _CALLS_OF_TEST = 99
 _LONGEST_WAIT = 86400.0  # s
+_LONGEST_WAIT_FOR_THE_START = (
+    2.0  # s, of functions that take steps: another client may be about to start the simulation
+)
 
 
 @variant_of_module("sim")
@@ -99,7 +102,10 @@ class RemoteSim(SimApi):
         return Pending(lambda: value() is not None or self._stopped(), value)
 
     def _run_waiting(self, function: str, waiting: Waiting) -> Any:
-        """Let a function that takes several steps go on with each; in stepping mode it allows them itself."""
+        """Let a function that takes several steps go on with each; in stepping mode it allows them itself.
+
+        It waits a moment for the start of a simulation that is stopped.
+        """
         client = self._caller
         server = client.server
         result: Any = None
@@ -108,7 +114,10 @@ class RemoteSim(SimApi):
         def is_done() -> bool:
             nonlocal result, steps
             if self._stopped():
-                raise RuntimeError(f"sim.{function}: the simulation is stopped, its time does not pass")
+                if pending.due is None or time.monotonic() >= pending.due:
+                    raise RuntimeError(f"sim.{function}: the simulation is stopped, its time does not pass")
+                return False
+            pending.due = None
             if server.steps == steps:
                 return False
             steps = server.steps
@@ -121,7 +130,8 @@ class RemoteSim(SimApi):
                 client.granted += 1
             return False
 
-        return Pending(is_done, lambda: result)
+        pending = Pending(is_done, lambda: result, due=time.monotonic() + _LONGEST_WAIT_FOR_THE_START)
+        return pending
 
     def getSimulationStopping(self) -> bool:
         """Return whether this is the last step."""
