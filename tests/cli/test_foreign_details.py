@@ -13,12 +13,6 @@ from node_support import run_sim
 from ttt_files import BOX, FLOOR, arm, arrays, cuboid, item, joint, mesh, script, text, thing, write
 
 
-@pytest.fixture(autouse=True)
-def _own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Keep conversions out of the user's cache."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
-
-
 def thrown(*velocity: float) -> bytes:
     """Return a box that starts with a velocity, of which SDFormat's <state> has the same numbers."""
     own = cuboid((0.2, 0.2, 0.2), 2) + item("_dv", struct.pack("<6d", *velocity))

@@ -10,12 +10,6 @@ from node_support import run_sim
 from ttt_files import BOX, LUA, PYTHON, arm, script, thing, write
 
 
-@pytest.fixture(autouse=True)
-def _own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Keep conversions out of the user's cache."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
-
-
 def world(tmp_path: Path, *includes: str, inside: str = "") -> Path:
     """Write a world with a floor, includes and further elements."""
     included = "".join(f"<include>{each}</include>" for each in includes)

@@ -11,12 +11,6 @@ from node_support import run_sim
 from ttt_files import BOX, FLOOR, PYTHON, arm, cuboid, script, script_object, thing, write
 
 
-@pytest.fixture(autouse=True)
-def _own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Keep conversions out of the user's cache."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
-
-
 def output_of(scene: Path, *options: str) -> str:
     run = run_sim(scene, "--no-ros", "--speed", "max", "--until", "0.5", *options)
     assert "error" not in run.stderr

@@ -18,12 +18,6 @@ from ros_support import DEADLINE, built
 from ttt_files import BOX, FLOOR, LUA, PYTHON, arm, cuboid, item, joint, script, text, thing, write
 
 
-@pytest.fixture(autouse=True)
-def _own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Keep conversions out of the user's cache."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
-
-
 def test_a_box_falls_on_the_floor(tmp_path: Path) -> None:
     simulation = bubblesim.Simulation(str(write(tmp_path / "box.ttt", FLOOR, BOX)))
     box = simulation.object("/Box")

@@ -12,12 +12,6 @@ from node_support import run_sim
 from ttt_files import BOX, FLOOR, IDENTITY, arm, cuboid, item, script, text, thing, write
 
 
-@pytest.fixture(autouse=True)
-def _own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Keep conversions out of the user's cache."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
-
-
 def kinematic(position: float, follows: int = -1, factor: float = 0, offset: float = 0) -> bytes:
     """Return the second half of a revolute joint from -2 to 2 rad that moves only when it is set, or with a leader."""
     fields = item("Jtt", struct.pack("<i", 10)) + item("_rt", struct.pack("<d", position))

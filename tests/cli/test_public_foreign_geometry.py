@@ -12,7 +12,7 @@ import pytest
 
 import bubblesim
 from cli_support import bubblesim as program
-from public_foreign_files import cases, needs_files
+from public_foreign_files import cases, matrix, needs_files
 from ttt_reader import FileObject, FilePart, roots
 
 pytestmark = needs_files
@@ -23,27 +23,6 @@ PLANE, SPHEROID, CYLINDER, CAPSULE = 1, 4, 5, 8
 NOT_RESPONDABLE, NOT_VISIBLE = 0x40, 0x100
 THICKNESS = 0.01
 """m, of planes, which have none in the file; downward."""
-
-
-@pytest.fixture(autouse=True)
-def cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Keep conversions out of the user's cache."""
-    folder = tmp_path_factory.mktemp("cache")
-    monkeypatch.setenv("XDG_CACHE_HOME", str(folder))
-    return folder
-
-
-def matrix(pose: list[float]) -> np.ndarray:
-    """Return the transformation of x y z and a quaternion x y z w."""
-    x, y, z, w = pose[3:]
-    made = np.eye(4)
-    made[:3, :3] = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    made[:3, 3] = pose[:3]
-    return made
 
 
 @dataclass

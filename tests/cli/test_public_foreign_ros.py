@@ -17,12 +17,6 @@ WHEEL_RADIUS = 0.0975  # m
 SPEED = 3.0  # rad/s
 
 
-@pytest.fixture(autouse=True)
-def _own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Keep conversions out of the user's cache."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
-
-
 @pytest.mark.parametrize("file", find("ros_pioneer.ttt"), ids=named)
 def test_a_pioneer_drives_by_topics_and_measures(roscore: RosCore, tmp_path: Path, file: Path) -> None:
     with Peer(roscore, tmp_path / "peer") as peer, Node(roscore.env, tmp_path / "log", file, "--speed", "2") as node:

@@ -11,17 +11,11 @@ import pytest
 
 import bubblesim
 from bubblesim import MotorMode
-from public_foreign_files import FILES, cases, find, named, needs_files
+from public_foreign_files import FILES, cases, find, matrix, named, needs_files
 from ros_support import built
 from ttt_reader import FileObject, roots, unpacked
 
 pytestmark = needs_files
-
-
-@pytest.fixture(autouse=True)
-def _own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Keep conversions out of the user's cache."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
 
 
 MOVES = {
@@ -78,19 +72,6 @@ MOTORS = {
 DRIVES = [(file, motor) for motor, files in MOTORS.items() for file in find(*files.split())]
 SPEED = 0.1
 """m/s, of the rims."""
-
-
-def matrix(pose: list[float]) -> np.ndarray:
-    """Return the transformation of x y z and a quaternion x y z w."""
-    x, y, z, w = pose[3:]
-    made = np.eye(4)
-    made[:3, :3] = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    made[:3, 3] = pose[:3]
-    return made
 
 
 def wheel_of(motor: str, objects: list[FileObject], above: np.ndarray) -> tuple[float, np.ndarray] | None:

@@ -50,12 +50,6 @@ SLOW = {"Proyecto02_scene.ttt": "22,500 collision checks in a step: it is interr
 COMPLETE = [file for file in FILES if file.name not in LACKING]
 
 
-@pytest.fixture(autouse=True)
-def _own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Keep conversions out of the user's cache."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
-
-
 def run(file: Path, *more: object, until: float = SECONDS) -> tuple[int, str]:
     """Run a scene with its scripts; return the exit code, 3 when a script has failed, and what is reported."""
     options = ("--no-ros", "--allow-python-scripts", "--speed", "max", "--until", until, "--strict")

@@ -3,6 +3,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from ros_support import REPOSITORY
@@ -30,3 +31,16 @@ def cases(short: int, files: list[Path] = FILES) -> list[object]:
 def find(*names: str) -> list[Path]:
     """Return the files of these names, as many as there are."""
     return [file for file in FILES if file.name in names]
+
+
+def matrix(pose: list[float]) -> np.ndarray:
+    """Return the transformation of x y z and a quaternion x y z w."""
+    x, y, z, w = pose[3:]
+    made = np.eye(4)
+    made[:3, :3] = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    made[:3, 3] = pose[:3]
+    return made
