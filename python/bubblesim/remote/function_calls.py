@@ -26,10 +26,10 @@ def carry_out(request: protocol.Request, sim: RemoteSim, client: RemoteClient) -
     :raises Exception: what the function raises, or that there is no such function.
     """
     module, _, name = request.function.partition(".")
-    module = module.partition("-")[0]  # without a version, such as that of 'sim-2'
+    module = _without_version(module)
     if module == "zmqRemoteApi" and name in ("require", "info"):
         wanted = request.arguments[0] if request.arguments else ""
-        bare = wanted.partition("-")[0] if isinstance(wanted, str) else ""  # without a version
+        bare = _without_version(wanted) if isinstance(wanted, str) else ""
         if bare not in MODULES_OF_CLIENTS:
             raise ImportError(f"module '{wanted}' not found: remote clients have {', '.join(MODULES_OF_CLIENTS)}")
         return None if name == "require" else info(bare)
@@ -60,6 +60,11 @@ def info(module: str = "sim") -> dict[str, dict[str, Any]]:
         **{name: {"func": {}} for name in (*names, *old)},
         **dict(_constants(type_of_module)),
     }
+
+
+def _without_version(module: str) -> str:
+    """Return the name of a module: 'sim' for 'sim-2'."""
+    return module.partition("-")[0]
 
 
 def _constants(module: type) -> Iterator[tuple[str, dict[str, Any]]]:

@@ -14,6 +14,11 @@ namespace bubblesim {
 /// A velocity and a spin, or an impulse and its moment, at the origin of a pair of bodies.
 using SpatialVector = Eigen::Matrix<double, 6, 1>;
 
+/// The matrix of the cross product: cross_matrix(v) * w is v x w.
+inline Matrix3 cross_matrix(const Vector3& v) {
+  return Matrix3{{0, -v.z(), v.y()}, {v.z(), 0, -v.x()}, {-v.y(), v.x(), 0}};
+}
+
 /// A direction in which an impulse acts between two bodies.
 struct SolvedRow {
   SpatialVector along =

@@ -15,8 +15,6 @@ namespace {
 constexpr int kMostSweeps = 120;
 constexpr double kSmallChange = 1e-5;  // m/s, by which solving a pair may change its velocity at a solution
 
-Matrix3 cross_matrix(const Vector3& v) { return Matrix3{{0, -v.z(), v.y()}, {v.z(), 0, -v.x()}, {-v.y(), v.x(), 0}}; }
-
 SpatialVector spatial(const Vector3& first, const Vector3& second) {
   SpatialVector made;
   made << first, second;
@@ -245,39 +243,36 @@ ContactSolver::Change ContactSolver::sweep() {
   return change;
 }
 
-bool ContactSolver::solve_stack() {
-  if (!stack_solver_.solve(island_)) return false;
+template <class MoreOf>
+void ContactSolver::change_impulses(const MoreOf& more_of) {
   for (const SolvedPair& pair : island_.pairs) {
     SpatialVector given = SpatialVector::Zero();
     for (std::size_t i = pair.begin; i < pair.end; ++i) {
       for (std::size_t row = 0; row < 3; ++row) {
         SolvedRow& along = *island_.points[i].rows()[row];
-        const double more = stack_solver_.change(i)[row];
+        const double more = more_of(i, row);
         along.impulse += more;
         given += along.along * more;
       }
     }
     give(pair, given);
   }
+}
+
+bool ContactSolver::solve_stack() {
+  if (!stack_solver_.solve(island_)) return false;
+  change_impulses([this](std::size_t i, std::size_t row) { return stack_solver_.change(i)[row]; });
   return true;
 }
 
 void ContactSolver::accelerate(double part) {
-  for (const SolvedPair& pair : island_.pairs) {
-    SpatialVector given = SpatialVector::Zero();
-    for (std::size_t i = pair.begin; i < pair.end; ++i) {
-      SolvedPoint& point = island_.points[i];
-      for (std::size_t row = 0; row < 3; ++row) {
-        SolvedRow& along = *point.rows()[row];
-        const double swept = along.impulse - point.before[row];
-        const double more = part * point.search[row];
-        along.impulse += more;
-        given += along.along * more;
-        point.search[row] = more + swept;
-      }
-    }
-    give(pair, given);
-  }
+  change_impulses([this, part](std::size_t i, std::size_t row) {
+    SolvedPoint& point = island_.points[i];
+    const double swept = point.rows()[row]->impulse - point.before[row];
+    const double more = part * point.search[row];
+    point.search[row] = more + swept;
+    return more;
+  });
 }
 
 void ContactSolver::push(const SolvedPair& pair, const SpatialVector& given, double step) const {

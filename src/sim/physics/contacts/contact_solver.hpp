@@ -48,6 +48,9 @@ class ContactSolver {
   /// Adds the resistances to rolling and spinning of a point.
   void add_spin(const SolvedPair& pair, PairMotion& pushed, SolvedPoint& point, const dSurfaceParameters& surface,
                 const Vector3& expected);
+  /// Changes the impulse of each row by `more_of(point, row)` in N s, and the motion of the bodies with it.
+  template <class MoreOf>
+  void change_impulses(const MoreOf& more_of);
   /// Gives the bodies the impulses of the pair.
   void give(const SolvedPair& pair, const SpatialVector& given);
   void push(const SolvedPair& pair, const SpatialVector& given, double step) const;

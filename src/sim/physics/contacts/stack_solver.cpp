@@ -18,7 +18,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 /// From the motion of a body to that of a place on it.
 Matrix6 shift(const Vector3& lever) {
   Matrix6 made = Matrix6::Identity();
-  made.block<3, 3>(0, 3) << 0, lever.z(), -lever.y(), -lever.z(), 0, lever.x(), lever.y(), -lever.x(), 0;
+  made.block<3, 3>(0, 3) = -cross_matrix(lever);
   return made;
 }
 
@@ -34,6 +34,18 @@ bool is_within(const SolvedPoint& point, double normal, double first, double sec
 }
 
 }  // namespace
+
+std::size_t StackSolver::solved_rows(Contact contact) {
+  switch (contact) {
+    case Contact::kSticks:
+      return 3;
+    case Contact::kSlides:
+      return 1;
+    case Contact::kOpen:
+      break;
+  }
+  return 0;
+}
 
 bool StackSolver::solve(const SolvedIsland& island) {
   if (island.bodies.size() < kLeastBodies || !arrange(island)) return false;
@@ -68,7 +80,8 @@ void StackSolver::assume(const SolvedIsland& island) {
 
 bool StackSolver::arrange(const SolvedIsland& island) {
   const std::size_t count = island.bodies.size();
-  nodes_.assign(count, {});
+  nodes_.resize(count);
+  for (Node& node : nodes_) node.above = 0;  // the rest is assembled
   neighbours_.resize(std::max(neighbours_.size(), count));
   for (std::size_t i = 0; i < count; ++i) neighbours_[i].clear();
   for (const SolvedPair& pair : island.pairs) {
@@ -114,11 +127,11 @@ void StackSolver::assemble(const SolvedIsland& island) {
     SpatialVector push = SpatialVector::Zero();
     for (std::size_t i = pair.begin; i < pair.end; ++i) {
       const auto rows = island.points[i].rows();
-      if (contacts_[i] == Contact::kOpen) {
+      const std::size_t count = solved_rows(contacts_[i]);
+      if (count == 0) {
         for (const SolvedRow* row : rows) push -= row->along * row->impulse;
         continue;
       }
-      const std::size_t count = contacts_[i] == Contact::kSticks ? 3 : 1;
       for (std::size_t row = 0; row < count; ++row) {
         const SpatialVector stiff = rows[row]->along / softness(*rows[row], row);
         stiffness += stiff * rows[row]->along.transpose();
@@ -177,7 +190,7 @@ bool StackSolver::judge(const SolvedIsland& island) {
     for (std::size_t i = pair.begin; i < pair.end; ++i) {
       const SolvedPoint& point = island.points[i];
       const auto rows = point.rows();
-      const std::size_t count = contacts_[i] == Contact::kSticks ? 3 : contacts_[i] == Contact::kSlides ? 1 : 0;
+      const std::size_t count = solved_rows(contacts_[i]);
       std::array<double, 3>& change = changes_[i];
       change = {};
       for (std::size_t row = 0; row < count; ++row) {

@@ -25,14 +25,16 @@ class StackSolver {
 
   /// What a point does in the solution.
   enum class Contact { kOpen, kSlides, kSticks };
+  /// How many rows of a point are unknown: none, that of the normal, or all.
+  static std::size_t solved_rows(Contact contact);
 
   /// A body with the equation of its motion: own * motion + above^T * (that of the body above) = push.
   struct Node {
     int above = 0;  // the body through which it is eliminated; 0: none
-    Matrix6 own = Matrix6::Zero();
-    Matrix6 to_above = Matrix6::Zero();
-    SpatialVector push = SpatialVector::Zero();
-    SpatialVector motion = SpatialVector::Zero();  // its change: m/s of the centre of mass, and rad/s
+    Matrix6 own;
+    Matrix6 to_above;
+    SpatialVector push;
+    SpatialVector motion;  // its change: m/s of the centre of mass, and rad/s
   };
 
   /// Makes the bodies a tree; returns false for loops.
