@@ -85,14 +85,20 @@ def test_numbers_and_only_they_are_taken_for_numbers(value: object) -> None:
 
 
 @AT_LEISURE
-@given(st.lists(st.floats() | st.text() | st.none(), max_size=5))
-def test_lists_of_three_numbers_are_taken_for_vectors(values: list[object]) -> None:
-    reported = refusal(Sample().vector, values)
-    if [type(value) for value in values] == [float] * 3:
-        assert reported is None
+@given(st.lists(st.floats(allow_nan=False), max_size=5))
+def test_lists_of_at_least_three_numbers_are_taken_for_vectors(values: list[float]) -> None:
+    if len(values) >= 3:  # those behind them are ignored, as in CoppeliaSim
+        assert Sample().vector(values) == values[:3]
     else:
-        assert reported is not None
-        assert reported.startswith("sample.vector: argument 1, value: expected 3 numbers, found ")
+        with pytest.raises(ArgumentError, match=r"^sample\.vector: argument 1, value: expected 3 numbers, found "):
+            Sample().vector(values)
+
+
+@AT_LEISURE
+@given(st.lists(st.floats(), max_size=5), st.text() | st.none(), st.integers(0, 5))
+def test_lists_with_anything_but_numbers_are_no_vectors(numbers: list[object], other: object, place: int) -> None:
+    with pytest.raises(ArgumentError, match=r"^sample\.vector: argument 1, value: expected 3 numbers, found "):
+        Sample().vector([*numbers[:place], other, *numbers[place:]])  # type: ignore[list-item]
 
 
 def test_both_orders_of_older_and_newer_scripts_are_taken() -> None:
