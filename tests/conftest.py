@@ -7,10 +7,15 @@ import signal
 import tempfile
 
 import pytest
+from hypothesis import settings
 
 # A shell starts background jobs with SIGINT ignored, and their children inherit that: Ctrl-C would have no effect.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGHUP, signal.SIG_DFL)  # likewise for nohup
+
+# A commit passes or fails as the one before it; --hypothesis-profile=default draws new examples each time.
+settings.register_profile("suite", derandomize=True)
+settings.load_profile("suite")
 
 pytest_plugins = ["ros_support", "web_support"]
 

@@ -3,6 +3,7 @@
 
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ import pytest
 import bubblesim
 from node_support import run_sim
 from public_foreign_files import FILES, cases, find, named, needs_files
+from remote_support import RemoteNode
 
 pytestmark = needs_files
 
@@ -119,3 +121,45 @@ def test_a_quadcopter_flies_after_its_target(file: Path, tmp_path: Path) -> None
     start = bubblesim.Simulation(str(file)).object("/Quadcopter").position
     assert math.dist(copter.position, target.position) < 0.2
     assert math.dist(copter.position, start) > 1
+
+
+def velocity_in_two_seconds(sim: Any, robot: int) -> tuple[list[float], float]:
+    """Return the mean velocity of a robot in its axes at the start, m/s, and its turning rate, rad/s."""
+    matrix, start = sim.getObjectMatrix(robot), sim.getObjectPosition(robot)
+    for _ in range(40):
+        sim.step()
+    first, last = np.array(matrix).reshape(3, 4)[:, :3], np.array(sim.getObjectMatrix(robot)).reshape(3, 4)[:, :3]
+    moved = first.T @ np.subtract(sim.getObjectPosition(robot), start) / 2
+    return list(moved), math.acos(min(1, (np.trace(first.T @ last) - 1) / 2)) / 2
+
+
+@pytest.mark.parametrize("file", [file for file in FILES if file.name.startswith("Indoor")], ids=named)
+def test_a_youbot_drives_on_its_mecanum_wheels_by_their_scripts(file: Path, tmp_path: Path) -> None:
+    """Speeds of a platform on rollers at 45 degrees: ahead and aside r w, on the spot r w / (a + b)."""
+    with RemoteNode(tmp_path, "--speed", "max", "--paused", scene=str(file)) as node:
+        sim = node.sim()
+        sim.setStepping(True)
+        sim.startSimulation()
+        robot = sim.getObject("/youBot")
+        motors = [sim.getObject(f"/rollingJoint_{corner}") for corner in ("fl", "rl", "rr", "fr")]
+        radius = sim.getObjectFloatParam(sim.getObject("/wheel_respondable_fl"), sim.objfloatparam_objbbox_max_z)
+        left, right = sim.getObjectPosition(motors[1]), sim.getObjectPosition(motors[3])
+        reach = (abs(left[0] - right[0]) + abs(left[1] - right[1])) / 2
+        speed = 5.0  # rad/s
+
+        def drive(*signs: int) -> tuple[list[float], float]:
+            for motor, sign in zip(motors, signs, strict=True):
+                sim.setJointTargetVelocity(motor, speed * sign)
+            sim.wait(1)
+            return velocity_in_two_seconds(sim, robot)
+
+        ahead, turned = drive(-1, -1, -1, -1)
+        assert ahead == pytest.approx([0, 0, radius * speed], rel=0.01, abs=2e-3)
+        assert turned < 0.01
+        aside, turned = drive(1, -1, 1, -1)
+        assert aside == pytest.approx([0, -radius * speed, 0], rel=0.01, abs=4e-3)
+        assert turned < 0.01
+        moved, turned = drive(-1, -1, 1, 1)
+        assert turned == pytest.approx(radius * speed / reach, rel=0.01)
+        assert math.hypot(*moved) < 0.01
+        assert "has no effect" not in node.output

@@ -169,6 +169,23 @@ sim.resetDynamicObject(sim.getObject('/base_link'))
     check(tmp_path, body)
 
 
+def test_boxes_of_objects_and_models_are_in_the_axes_of_the_object(tmp_path: Path) -> None:
+    body = """
+box = sim.createPrimitiveShape(sim.primitiveshape_cuboid, [0.2, 0.4, 0.6], 0)
+sim.setObjectPose(box, [5, 0, 0, 0, 0, math.sin(0.5), math.cos(0.5)])
+sides = [sim.getObjectFloatParam(box, number) for number in range(sim.objfloatparam_objbbox_min_x,
+                                                                  sim.objfloatparam_objbbox_max_z + 1)]
+near(sides, [-0.1, -0.2, -0.3, 0.1, 0.2, 0.3])
+base, model = sim.getObject('/base_link'), sim.getObject('.')
+below = sim.getObjectFloatParam(base, sim.objfloatparam_objbbox_min_z)
+assert sim.getObjectFloatParam(base, sim.objfloatparam_modelbbox_min_z) < below
+assert sim.getObjectFloatParam(model, sim.objfloatparam_modelbbox_max_x) == sim.getObjectFloatParam(
+    model, sim.objfloatparam_objbbox_max_x)
+assert sim.getObjectFloatParam(sim.createDummy(0.1), sim.objfloatparam_objbbox_max_x) == 0
+"""
+    check(tmp_path, body)
+
+
 def test_data_is_kept_by_object_and_name(tmp_path: Path) -> None:
     body = """
 h, dummy = sim.getObject('.'), sim.createDummy(0.1)

@@ -14,7 +14,7 @@ class Fixed final : public Joint {
 
   double position(int) const override { return 0; }
   double velocity(int) const override { return 0; }
-  void hold_here() override { dJointSetFixed(joint_.get()); }
+  void place(const Pose&) override { dJointSetFixed(joint_.get()); }
 
  private:
   ode::JointHandle joint_;

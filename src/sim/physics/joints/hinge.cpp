@@ -30,6 +30,13 @@ class Hinge final : public Joint {
   }
   double velocity(int) const override { return dJointGetHingeAngleRate(joint_.get()); }
 
+  void place(const Pose& frame) override {
+    const Vector3 direction = frame.orientation * axis(0).direction;
+    dJointSetHingeAnchor(joint_.get(), frame.position.x(), frame.position.y(), frame.position.z());
+    dJointSetHingeAxis(joint_.get(), direction.x(), direction.y(), direction.z());
+    turn_motors(direction);
+  }
+
  private:
   void follow(double) override {
     if (!counts_turns_) return;

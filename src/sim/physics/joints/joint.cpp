@@ -54,6 +54,16 @@ Joint::Joint(std::vector<AxisDescription> axes) {
 
 void Joint::follow(double) {}
 
+void Joint::place(const Pose&) {}
+
+void Joint::turn_motors(const Vector3& direction) {
+  for (const Axis& axis : axes_) {
+    for (const std::optional<Motor>* motor : {&axis.own_motor, &axis.own_friction, &axis.own_damper}) {
+      if (*motor) (*motor)->turn(direction);
+    }
+  }
+}
+
 void Joint::add_rows(dWorldID world, Motor rows, Motion motion, const AxisLine& line) {
   std::size_t index = 0;
   while (axes_[index].rows) ++index;

@@ -82,8 +82,9 @@ class Joint {
   /// Of a gearbox; other joints have none.
   virtual std::optional<ShaftCoupling> coupling() const { return std::nullopt; }
 
-  /// Of a fixed joint: holds its bodies as they are now. Other joints do nothing.
-  virtual void hold_here() {}
+  /// Puts the joint elsewhere between its bodies: its frame in the world, while their poses are those of position 0. Of
+  /// fixed joints and hinges; others do nothing.
+  virtual void place(const Pose& frame);
 
   /// Saves or restores commands, and what the joint remembers of the last substep.
   void transfer(StateArchive& archive);
@@ -92,6 +93,8 @@ class Joint {
   enum class Motion { kTurns, kSlides };
   /// Call for each axis in order, after the ODE joint is created. `rows` are the joint's rows of the axis.
   void add_rows(dWorldID world, Motor rows, Motion motion, const AxisLine& line);
+  /// Call when the axis of a joint has got another direction, in the world.
+  void turn_motors(const Vector3& direction);
   /// Shifts the limits for ODE, which measures a position that is less by `shift`.
   void shift_limits(int axis, double shift) { axes_[static_cast<std::size_t>(axis)].shift = shift; }
   /// Called before each substep.

@@ -26,6 +26,11 @@ Motor Motor::between(const AxisLine& line, ode::JointHandle joint, SetAxis set_a
   return motor;
 }
 
+void Motor::turn(const Vector3& direction) const {
+  if (own_ == nullptr) return;
+  dJointSetAMotorAxis(joint_, 0, dJointGetAMotorAxisRel(joint_, 0), direction.x(), direction.y(), direction.z());
+}
+
 void Motor::hold(double velocity, double max_force) {
   aim(velocity);
   force_.max_force = std::isfinite(max_force) ? max_force : dInfinity;

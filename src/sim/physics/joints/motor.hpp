@@ -39,6 +39,9 @@ class Motor {
   /// Sets an ODE parameter dParam..., given without the offset of the group.
   void set(int parameter, double value) const { set_(joint_, group_ * dParamGroup + parameter, value); }
 
+  /// Turns the axis of a separate motor joint that turns, in the world.
+  void turn(const Vector3& direction) const;
+
   /// What it was set to.
   const MotorForce& force() const { return force_; }
 

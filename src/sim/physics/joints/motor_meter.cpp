@@ -22,14 +22,17 @@ Vector3 in_world(dBodyID body, const Vector3& v) {
 
 }  // namespace
 
-MotorMeter::MotorMeter(const MeteredAxis& axis)
-    : axis_(axis),
-      direction_in_carrier_(in_body(axis.carrier, axis.direction)),
-      lever_in_child_(in_body(axis.child, to_vector(dBodyGetPosition(axis.child)) - axis.origin)) {
+MotorMeter::MotorMeter(const MeteredAxis& axis) : axis_(axis) {
+  place(axis.direction, axis.origin);
   // A joint with one body reports its force first, whichever place the body has.
   dBodyID first = dJointGetBody(axis.joint, 0);
   child_first_ = first == axis.child || first == nullptr || dJointGetBody(axis.joint, 1) == nullptr;
   if (dJointGetFeedback(axis.joint) == nullptr) dJointSetFeedback(axis.joint, &feedback_);
+}
+
+void MotorMeter::place(const Vector3& direction, const Vector3& origin) {
+  direction_in_carrier_ = in_body(axis_.carrier, direction);
+  lever_in_child_ = in_body(axis_.child, to_vector(dBodyGetPosition(axis_.child)) - origin);
 }
 
 void MotorMeter::aim() {

@@ -26,6 +26,8 @@ class MotorMeter {
   MotorMeter(const MotorMeter&) = delete;
   MotorMeter& operator=(const MotorMeter&) = delete;
 
+  /// Call when the axis has got another direction or origin, in the world.
+  void place(const Vector3& direction, const Vector3& origin);
   /// Call before a substep: ODE's forces refer to the positions at its start.
   void aim();
   /// Call after a substep of `step` seconds.

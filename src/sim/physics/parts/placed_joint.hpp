@@ -13,8 +13,7 @@
 
 namespace bubblesim {
 
-/// A joint that is fixed to the world moves with its child when that is put elsewhere: `in_parent` is part of the
-/// state.
+/// Some joints can be put elsewhere, see has_loose_frame(): `in_parent` and `in_child` are part of the state then.
 struct PlacedJoint {
   std::unique_ptr<Joint> joint;  // null in a static model
   ObjectId object = kNoObject;

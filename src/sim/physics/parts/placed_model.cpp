@@ -3,8 +3,35 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+
+#include "physics/ode/body_state.hpp"
+#include "physics/ode/ode_math.hpp"
+#include "scene/joint_kind.hpp"
 
 namespace bubblesim {
+namespace {
+
+const Link& link_of(const PlacedModel& model, ObjectId id) {
+  return *std::find_if(model.links.begin(), model.links.end(), [&](const Link& link) { return link.object == id; });
+}
+
+/// Puts a body elsewhere, and back in the end.
+class PutForAMoment {
+ public:
+  PutForAMoment(const Link& link, const Pose& pose) : body_(link.body.get()), before_(body_pose(body_)) {
+    set_body_pose(body_, {pose * link.centre_of_mass, pose.orientation});
+  }
+  ~PutForAMoment() { set_body_pose(body_, before_); }
+  PutForAMoment(const PutForAMoment&) = delete;
+  PutForAMoment& operator=(const PutForAMoment&) = delete;
+
+ private:
+  dBodyID body_;
+  Pose before_;
+};
+
+}  // namespace
 
 double total_mass(const PlacedModel& model) {
   if (model.space == nullptr) return std::numeric_limits<double>::infinity();
@@ -31,10 +58,31 @@ bool is_anchor(const PlacedModel& model, std::size_t joint) {
          model.description.joints[joint].type == "fixed";
 }
 
-void anchor(PlacedModel& model, std::size_t joint, const Pose& pose) {
-  model.joints[joint].in_parent = pose;
-  model.joints[joint].joint->hold_here();
+bool is_hinge(const PlacedModel& model, std::size_t joint) {
+  return model.joints[joint].joint != nullptr && find_joint_kind(model.description.joints[joint].type)->is_hinge;
+}
+
+bool has_loose_frame(const PlacedModel& model, std::size_t joint) {
+  return is_anchor(model, joint) || is_hinge(model, joint);
+}
+
+void place_joint(PlacedModel& model, std::size_t joint, const Pose& in_parent, const Pose& in_child) {
+  PlacedJoint& placed = model.joints[joint];
+  placed.in_parent = in_parent;
+  placed.in_child = in_child;
   model.trees.reset();
+  if (placed.meter != nullptr) placed.meter->place(in_child);
+  // ODE takes the frame from the poses of the bodies, which are those of position 0 then. They depend on nothing else,
+  // so that a restored joint has the same bits.
+  std::optional<PutForAMoment> parent;
+  if (placed.parent != kNoObject) parent.emplace(link_of(model, placed.parent), Pose());
+  const PutForAMoment child(link_of(model, placed.child), in_parent * in_child.inverse());
+  placed.joint->place(in_parent);
+  for (std::size_t i = 0; i < placed.motor_meters.size(); ++i) {
+    if (placed.motor_meters[i] == nullptr) continue;
+    const Vector3 direction = in_parent.orientation * placed.joint->axis(static_cast<int>(i)).direction;
+    placed.motor_meters[i]->place(direction, in_parent.position);
+  }
 }
 
 PlanarMotor make_planar_motor(dWorldID world, const PlacedModel& model) {

@@ -82,8 +82,13 @@ struct MovingModels {
 
 /// Whether a joint holds its child to the world.
 bool is_anchor(const PlacedModel& model, std::size_t joint);
-/// Holds the child of such a joint, which is where it is to be, with the joint's frame at `pose` in the world.
-void anchor(PlacedModel& model, std::size_t joint, const Pose& pose);
+/// Whether a joint turns about one axis.
+bool is_hinge(const PlacedModel& model, std::size_t joint);
+/// Whether a joint can be put elsewhere between its links: it is one of these.
+bool has_loose_frame(const PlacedModel& model, std::size_t joint);
+/// Puts such a joint elsewhere: poses of its frame in its parent (the world without one) and in its child. The links
+/// stay.
+void place_joint(PlacedModel& model, std::size_t joint, const Pose& in_parent, const Pose& in_child);
 
 /// In kg, at present; infinite for a static model.
 double total_mass(const PlacedModel& model);

@@ -35,7 +35,7 @@ WrenchMeter::WrenchMeter(const Link* parent, const Link& child, const Pose& join
 void WrenchMeter::add_sensor(const ForceTorqueDescription& description, std::size_t sensor, const Pose& in_joint) {
   Signal& signal = signals_.emplace_back(description);
   signal.sensor = sensor;
-  signal.in_child = joint_in_child_ * in_joint;
+  signal.in_joint = in_joint;
 }
 
 void WrenchMeter::clear() {
@@ -88,7 +88,7 @@ void WrenchMeter::end(double step) {
   impulse_.force -= total.force * step;
   impulse_.torque -= torque_about((child_pose_ * joint_in_child_).position) * step;
   for (Signal& signal : signals_) {
-    const Pose sensor = child_pose_ * signal.in_child;
+    const Pose sensor = child_pose_ * joint_in_child_ * signal.in_joint;
     const double sign = signal.description.of_child ? -1 : 1;
     const Quaternion axes = axes_of(signal.description.frame, sensor.orientation);
     signal.force.add(axes.conjugate() * (total.force * sign), step);

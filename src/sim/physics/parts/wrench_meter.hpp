@@ -30,6 +30,9 @@ class WrenchMeter {
   /// `sensor` is the Object::index of a force-torque sensor, `in_joint` its pose in the joint's frame.
   void add_sensor(const ForceTorqueDescription& description, std::size_t sensor, const Pose& in_joint);
 
+  /// Call when the joint has got another pose in the child link's frame.
+  void place(const Pose& joint_in_child) { joint_in_child_ = joint_in_child; }
+
   void clear();
   /// Call before and after each substep: ODE's forces refer to the positions at its start.
   void begin();
@@ -56,7 +59,7 @@ class WrenchMeter {
 
     const ForceTorqueDescription& description;
     std::size_t sensor = 0;
-    Pose in_child;         // the sensor in the child link's frame
+    Pose in_joint;
     SubstepSignal force;   // N
     SubstepSignal torque;  // N m, about the sensor's origin
   };

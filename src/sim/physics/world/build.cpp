@@ -222,6 +222,10 @@ class ModelBuilder {
       model_.described_sensors.push_back(&sensor);
     }
     model_.joints.push_back(std::move(joint));
+    const std::size_t last = model_.joints.size() - 1;
+    // As when it is put back after a run that has moved it, to the bit.
+    if (has_loose_frame(model_, last))
+      place_joint(model_, last, model_.joints[last].in_parent, model_.joints[last].in_child);
   }
 
   void meter_motors(PlacedJoint& joint, const JointDescription& description, const Pose& pose) const {

@@ -32,11 +32,17 @@ bool is_loose(const WorldState& state, const Object& sensor) {
   return is_of_link && state.model_of(sensor.id).motion_meters.count(sensor.index) == 0;
 }
 
+/// Whether a joint may be moved between its links.
+bool is_loose_joint(const WorldState& state, const Object& joint) {
+  return is_hinge(state.model_of(joint.id), joint.index);
+}
+
 /// What moves with an object that is set to a pose.
 struct Movers {
   std::set<ObjectId> links;
   std::vector<ObjectId> frames;
   std::vector<ObjectId> sensors;
+  std::vector<ObjectId> joints;
 };
 
 /// The objects with what is below them in the tree, and below the links of each model among these.
@@ -55,6 +61,7 @@ Movers movers(const WorldState& state, std::vector<ObjectId> open) {
     }
     if (object.kind == ObjectKind::kLink && !is_infinite(state, object.id)) found.links.insert(object.id);
     if (object.kind == ObjectKind::kSensor && is_loose(state, object)) found.sensors.push_back(object.id);
+    if (object.kind == ObjectKind::kJoint && is_loose_joint(state, object)) found.joints.push_back(object.id);
   }
   return found;
 }
@@ -68,6 +75,7 @@ void check_movable(const WorldState& state, ObjectId id) {
                       ": it cannot be moved on its own; move that");
   }
   if (object.kind == ObjectKind::kSensor && is_loose(state, object)) return;
+  if (object.kind == ObjectKind::kJoint && is_loose_joint(state, object)) return;
   if (object.kind != ObjectKind::kModel && object.kind != ObjectKind::kLink) {
     throw WrongObject(state.shown(id) + " is a " + std::string(kind_name(object.kind)) +
                       ": it cannot be moved on its own; move its link or model");
@@ -179,7 +187,40 @@ void anchor_moved(const WorldState& state, PlacedModel& model, const std::set<Ob
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const PlacedJoint& joint = model.joints[i];
     if (!is_anchor(model, i) || links.count(joint.child) == 0) continue;
-    anchor(model, i, normalized(link_pose(state.link(joint.child)) * joint.in_child));
+    place_joint(model, i, normalized(link_pose(state.link(joint.child)) * joint.in_child), joint.in_child);
+  }
+}
+
+Pose pose_of_link(const WorldState& state, ObjectId link) {
+  return link == kNoObject ? Pose() : link_pose(state.link(link));
+}
+
+/// A joint that moves between its links, and both of its sides in the world, where they are to be.
+struct MovedJoint {
+  ObjectId joint;
+  Pose frame;
+  Pose moving_frame;
+};
+
+/// The joints that move otherwise than their parents. What they are turned by stays.
+std::vector<MovedJoint> moved_joints(const WorldState& state, const Movers& moving, const Pose& motion) {
+  std::vector<MovedJoint> found;
+  for (const ObjectId id : moving.joints) {
+    const PlacedJoint& placed = state.model_of(id).joints[state.tree().at(id).index];
+    if (moving.links.count(placed.parent) > 0) continue;
+    const Pose moving_frame = link_pose(state.link(placed.child)) * placed.in_child;
+    found.push_back({id, motion * pose_of(state, id), motion * moving_frame});
+  }
+  return found;
+}
+
+void place_joints(WorldState& state, const std::vector<MovedJoint>& joints) {
+  for (const MovedJoint& moved : joints) {
+    PlacedModel& model = state.model_of(moved.joint);
+    const std::size_t index = state.tree().at(moved.joint).index;
+    const PlacedJoint& placed = model.joints[index];
+    place_joint(model, index, normalized(pose_of_link(state, placed.parent).inverse() * moved.frame),
+                normalized(link_pose(state.link(placed.child)).inverse() * moved.moving_frame));
   }
 }
 
@@ -197,7 +238,8 @@ void move(WorldState& state, const Movers& moving, const Pose& before, const Pos
     const Pose moved = wanted * (before.inverse() * pose_of(state, id));
     state.model_of(id).sensors[sensor.index] = normalized(link_pose(state.link(sensor.carrier)).inverse() * moved);
   }
-  if (moving.links.empty()) return;
+  const std::vector<MovedJoint> joints = moved_joints(state, moving, wanted * before.inverse());
+  if (moving.links.empty() && joints.empty()) return;
   wake_all(state);
   std::set<ObjectId> models;
   for (const ObjectId id : moving.links) models.insert(state.tree().outermost_model_of(id));
@@ -214,6 +256,7 @@ void move(WorldState& state, const Movers& moving, const Pose& before, const Pos
     dBodySetQuaternion(link.body.get(), to_ode(moved.orientation).data());
   }
   for (const ObjectId id : models) anchor_moved(state, state.model_of(id), moving.links);
+  place_joints(state, joints);
   // Those that are carried keep their new place on what carries them, which may have moved, too.
   for (const ObjectId id : moving.links) {
     if (state.link(id).body == nullptr) attach_static(state, id, state.link(id).carrier);
@@ -245,6 +288,7 @@ void move_children(WorldState& state, ObjectId parent, const Pose& before, const
 
 void move_links(WorldState& state, const std::vector<ObjectId>& links, const Pose& motion) {
   Movers others = movers(state, links);
+  others.joints.clear();  // their parents move
   for (const ObjectId link : links) {
     check_movable(state, link);
     check_pose(state, link, motion * pose_of(state, link));
@@ -258,11 +302,11 @@ void move_links(WorldState& state, const std::vector<ObjectId>& links, const Pos
   for (const ObjectId sensor : others.sensors) {
     if (others.links.count(state.tree().at(sensor).carrier) == 0) sensors.push_back(sensor);
   }
-  move(state, {{}, frames, sensors}, Pose(), motion);
+  move(state, {{}, frames, sensors, {}}, Pose(), motion);
   for (const ObjectId link : links) {
     const Pose before = pose_of(state, link);
     const Pose wanted = motion * before;
-    move(state, {{link}, {}, {}}, before, {wanted.position, wanted.orientation.normalized()});
+    move(state, {{link}, {}, {}, {}}, before, {wanted.position, wanted.orientation.normalized()});
     others.links.erase(link);
   }
   others.frames.clear();

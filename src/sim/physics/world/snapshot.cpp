@@ -75,11 +75,13 @@ void transfer_joint(StateArchive& archive, PlacedJoint& placed) {
 }
 
 /// After the links.
-void transfer_anchor(StateArchive& archive, PlacedModel& model, std::size_t joint) {
-  const Pose before = model.joints[joint].in_parent;
-  Pose pose = before;
-  archive(pose);
-  if (archive.restores() && pose != before) anchor(model, joint, pose);
+void transfer_frame(StateArchive& archive, PlacedModel& model, std::size_t joint) {
+  const PlacedJoint& placed = model.joints[joint];
+  Pose in_parent = placed.in_parent;
+  Pose in_child = placed.in_child;
+  archive(in_parent, in_child);
+  if (!archive.restores() || (in_parent == placed.in_parent && in_child == placed.in_child)) return;
+  place_joint(model, joint, in_parent, in_child);
 }
 
 void transfer_model(StateArchive& archive, const WorldState& state, PlacedModel& model) {
@@ -91,8 +93,8 @@ void transfer_model(StateArchive& archive, const WorldState& state, PlacedModel&
   }
   for (Rotation& rotation : model.rotations) archive(rotation);
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    if (has_loose_frame(model, i)) transfer_frame(archive, model, i);
     transfer_joint(archive, model.joints[i]);
-    if (is_anchor(model, i)) transfer_anchor(archive, model, i);
   }
   for (auto& [index, meter] : model.motion_meters) archive(meter);
   archive(model.rest.time, model.rest.group);

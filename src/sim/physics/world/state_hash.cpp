@@ -66,7 +66,10 @@ std::uint64_t World::state_hash() const {
   for (const auto& model : state_->models) {
     for (std::size_t i = 0; i < model->joints.size(); ++i) {
       const PlacedJoint& placed = model->joints[i];
-      if (is_anchor(*model, i)) add_pose(hash, placed.in_parent);
+      if (has_loose_frame(*model, i)) {
+        add_pose(hash, placed.in_parent);
+        add_pose(hash, placed.in_child);
+      }
       for (int axis = 0; placed.joint && axis < placed.joint->axis_count(); ++axis) {
         const double targets[] = {placed.joint->target_position(axis), placed.joint->target_velocity(axis),
                                   placed.joint->target_effort(axis), placed.joint->axis(axis).max_force,

@@ -223,7 +223,6 @@ TEST_F(RobotWorld, ObjectsOfTheWrongKindAreRefusedByName) {
   expect_refused(world, [&] { world.joints().child_pose(find("/Robot")); }, {"/Robot", "model", "not a joint"});
   expect_refused(world, [&] { world.joints().set_target_velocity(find("/Sonar"), 1); },
                  {"/Sonar", "sensor", "not a joint"});
-  expect_refused(world, [&] { world.set_pose(find("/joint"), {}); }, {"/joint", "cannot be moved on its own"});
   expect_refused(world, [&] { world.set_velocity(find("/Sonar"), {}); }, {"/Sonar", "cannot be moved on its own"});
   expect_refused(world, [&] { world.set_velocity(find("/Wall/link"), {}); }, {"/link", "static"});
   expect_refused(world, [&] { world.joints().position(find("/joint"), 1); }, {"/joint", "index 1"});

@@ -94,9 +94,16 @@ class ObjectChangeFunctions(ApiContext):
 
     @refusal_warns
     def resetDynamicObject(self, handle: Handle) -> None:
-        """Set the velocity of a model or link to 0."""
+        """Set the velocity of a model or link to 0. A link that is the child of a joint keeps it: the mechanism that it
+        is a part of would give it back."""
         handle = self._resolve(handle)
+        if self._tree.kind(handle) == "link" and self._hangs_on_a_joint(handle):
+            return
         self._world.set_state(handle, self._world.pose(handle), [0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
+
+    def _hangs_on_a_joint(self, link: int) -> bool:
+        joints = self._world.parts(self._tree.model(link), "joint")
+        return any(self._world.joint_links(joint)[1] == link for joint in joints)
 
     @refusal_warns
     def setShapeMass(self, handle: Handle, mass: float) -> None:

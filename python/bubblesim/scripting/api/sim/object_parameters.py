@@ -52,8 +52,11 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
     def getObjectFloatParam(self, handle: Handle, parameter: int) -> float:
         """Return a number of an object: sim.jointfloatparam_velocity and upper_limit, the angle of a camera
         sim.visionfloatparam_perspective_angle (rad), sim.objfloatparam_abs_x_velocity, y and z (m/s) and
-        abs_rot_velocity (rad/s), sim.shapefloatparam_mass (kg)."""
+        abs_rot_velocity (rad/s), sim.shapefloatparam_mass (kg); sim.objfloatparam_objbbox_min_x to max_z (m) of the box
+        along the object's axes around what collides, modelbbox_min_x to max_z of that around its whole model."""
         handle = self._resolve(handle)
+        if self.objfloatparam_objbbox_min_x <= parameter <= self.objfloatparam_modelbbox_max_z:
+            return self._side_of_box(handle, parameter - self.objfloatparam_objbbox_min_x)
         if self.objfloatparam_abs_x_velocity <= parameter <= self.objfloatparam_abs_rot_velocity:
             linear, angular = self._world.velocity(handle)
             return float([*linear, math.hypot(*angular)][parameter - self.objfloatparam_abs_x_velocity])
@@ -196,6 +199,15 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
             self.shapeintparam_respondable: lambda shape, value: self._set_respondable(shape, value != 0),
             self.proxintparam_entity_to_detect: self._set_entity_to_detect,
         }
+
+    def _side_of_box(self, handle: int, side: int) -> float:
+        """Return the lowest x, y and z, then the highest ones, of an object, then of its model; 0 without a shape."""
+        if self._tree.kind(handle) not in ("model", "link"):
+            return 0.0
+        is_link = self._tree.kind(handle) == "link"
+        links = [handle] if is_link and side < 6 else self._world.parts(self._tree.model(handle), "link")
+        found = self._world.bounds(links, self._tree.pose(handle))
+        return 0.0 if found is None else float([*found[0], *found[1]][side % 6])
 
     def _floats(self) -> dict[int, Callable[[int], float]]:
         """Return the functions that read numbers."""

@@ -5,12 +5,9 @@ from __future__ import annotations
 
 import contextlib
 import math
-import sys
 
 from bubblesim._core import sensor_kind
 from bubblesim.geometry import poses, rotations
-from bubblesim.program.output import write_line
-from bubblesim.scene_state import log
 from bubblesim.scene_state.handle_error import MAX_HANDLE
 from bubblesim.scripting.api.checked_calls import refusal_warns, value_first
 from bubblesim.scripting.api.kinds import (
@@ -187,7 +184,7 @@ class ObjectFunctions(ApiContext):
     @refusal_warns
     @value_first
     def setObjectPose(self, handle: Handle, pose: Vector7, relative_to: Handle = WORLD) -> None:
-        """Set the pose of a model, link or dummy. Also accepts the old order (handle, relative_to, pose)."""
+        """Set the pose of a model, link, hinge or dummy. Also accepts the old order (handle, relative_to, pose)."""
         self._set_pose(handle, pose, relative_to)
 
     def getObjectPosition(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
@@ -197,7 +194,7 @@ class ObjectFunctions(ApiContext):
     @refusal_warns
     @value_first
     def setObjectPosition(self, handle: Handle, position: Vector3, relative_to: Handle = WORLD) -> None:
-        """Set the position of a model, link or dummy. Also accepts the old order (handle, relative_to, position)."""
+        """Set the position of a model, link, hinge or dummy. Accepts the old order (handle, relative_to, position)."""
         self._set_pose(handle, [*position, *self._pose(handle, relative_to)[3:]], relative_to)
 
     def getObjectQuaternion(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
@@ -207,7 +204,7 @@ class ObjectFunctions(ApiContext):
     @refusal_warns
     @value_first
     def setObjectQuaternion(self, handle: Handle, quaternion: Vector4, relative_to: Handle = WORLD) -> None:
-        """Set the orientation of a model, link or dummy. Also accepts the old order (relative_to before quaternion)."""
+        """Set the orientation of a model, link, hinge or dummy. Accepts the old order (relative_to, quaternion)."""
         self._set_pose(handle, [*self._pose(handle, relative_to)[:3], *quaternion], relative_to)
 
     def getObjectOrientation(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
@@ -217,14 +214,14 @@ class ObjectFunctions(ApiContext):
     @refusal_warns
     @value_first
     def setObjectOrientation(self, handle: Handle, angles: Vector3, relative_to: Handle = WORLD) -> None:
-        """Set the Euler angles of a model, link or dummy. Also accepts the old order (handle, relative_to, angles)."""
+        """Set the Euler angles of a model, link, hinge, dummy. Accepts the old order (handle, relative_to, angles)."""
         position = self._pose(handle, relative_to)[:3]
         self._set_pose(handle, [*position, *rotations.quaternion_of_euler(angles)], relative_to)
 
     @refusal_warns
     @value_first
     def setObjectMatrix(self, handle: Handle, matrix: Vector12, relative_to: Handle = WORLD) -> None:
-        """Set the pose of a model, link or dummy by a matrix of 12 numbers. Also accepts the old order."""
+        """Set the pose of a model, link, hinge or dummy by a matrix of 12 numbers. Also accepts the old order."""
         self._set_pose(handle, poses.of_matrix(matrix), relative_to)
 
     def getObjectMatrix(self, handle: Handle, relative_to: Handle = WORLD) -> Vector:
@@ -285,20 +282,7 @@ class ObjectFunctions(ApiContext):
         return self._resolve(relative_to)
 
     def _set_pose(self, handle: Handle, pose: Vector, relative_to: int) -> None:
-        free, relative_to = self._without_flag(handle, relative_to)
-        try:
-            self._set_free_pose(free, pose, relative_to)
-        except ValueError as error:
-            if free == handle or not self._tree.contains(free):
-                raise
-            # Models of omni-wheels put the frame of a free joint back in each step.
-            kept = self._caller.shared.log
-            text = f"{error}; sim.handleflag_reljointbaseframe has no effect"
-            if kept.is_first(log.SCRIPT_WARNING, text):
-                kept.add(log.SCRIPT_WARNING, self._caller.object_path, text)
-                write_line(sys.stderr, f"warning: {self._caller.object_path}: {text}")
-
-    def _set_free_pose(self, handle: Handle, pose: Vector, relative_to: int) -> None:
+        handle, relative_to = self._without_flag(handle, relative_to)
         handle = self._resolve(handle)
         length = math.hypot(*pose[3:])
         if math.isfinite(length) and length > _LEAST_LENGTH:  # numbers that scripts have computed
