@@ -31,3 +31,13 @@ def test_bubblesim_connect_reports_that_no_server_answers() -> None:
     port = free_port()
     with pytest.raises(TimeoutError, match=rf"no answer from 127.0.0.1:{port} in 0.2 s: .* --remote={port}"):
         bubblesim.connect(port, timeout=0.2)
+
+
+def test_bubblesim_connect_reports_what_it_waits_for(caplog: pytest.LogCaptureFixture) -> None:
+    port = free_port()
+    with pytest.raises(TimeoutError):
+        bubblesim.connect(port, timeout=2.1)
+    assert (
+        f"no answer from 127.0.0.1:{port} yet, waiting up to 2.1 s: start a simulator with --remote={port}"
+        in caplog.text
+    )

@@ -196,6 +196,12 @@ def test_a_module_that_is_not_installed_is_named_with_the_python_that_needs_it(t
     )
 
 
+def test_modules_of_the_simulator_need_no_import(tmp_path: Path) -> None:
+    run = run_script(tmp_path, "import simROS\ndef sysCall_init(): pass\n")
+    reason = run.stderr.splitlines()[-1]
+    assert reason.endswith("; simROS is there without an import: remove the line, or write simROS = require('simROS')")
+
+
 def test_a_module_beside_the_script_is_to_be_included(tmp_path: Path) -> None:
     write(tmp_path / "helper.py", "speed = 2\n")
     reason = run_script(tmp_path, "import helper\ndef sysCall_init(): pass\n").stderr.splitlines()[-1]

@@ -198,7 +198,7 @@ BAD_CALLS = {
     "sim.getObject('/Ball', index=1)": "sim.getObject(path, options): got an unexpected keyword argument 'index'",
     "sim.getObject('/Ball', 'index')": "argument 2, options: expected a table of options by name, found str 'index'",
     "sim.getObject('/Ball', {'noerror': 1})": "ValueError: getObject has no option 'noerror'",
-    "sim.getObjectPosition('/Ball')": "expected the handle of an object, an integer, found str '/Ball'",
+    "sim.getObjectPosition('/Ball')": "an integer, found str '/Ball'; sim.getObject('/Ball') returns it",
     "sim.getObjectPosition(999)": "NoSuchObject: no object has the handle 999",
     "sim.getObjectPosition(-77)": "sim.getObjectPosition: argument 1, handle: -77 is not a handle of an object",
     "sim.setObjectPosition(sim.handle_self, [1, 2])": "argument 2, position: expected 3 numbers, found 2",

@@ -179,6 +179,7 @@ BAD_REQUESTS: list[tuple[str, dict[str, Any], str]] = [
     ("set_link_state", {"link_state": {"link_name": "Arm::tip", "reference_frame": "x"}}, "no object"),
     ("delete_model", {"model_name": "Arm::tip"}, "is a link, not a model"),
     ("delete_model", {"model_name": "Nothing"}, "no object"),
+    ("spawn_sdf_model", {"model_name": "New", "model_xml": ""}, "model_xml is empty: it must be the text"),
     ("spawn_sdf_model", {"model_name": "New", "model_xml": "<sdf"}, "is not well-formed XML"),
     ("spawn_sdf_model", {"model_name": "New", "model_xml": SDF, "reference_frame": "x"}, "no object"),
     ("spawn_urdf_model", {"model_name": "New", "model_xml": URDF.replace("'1'/>", "'-1'/>")}, ""),

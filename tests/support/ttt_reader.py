@@ -143,6 +143,7 @@ def _objects(content: bytes) -> Iterator[FileObject]:
     lists = list(_items(content))
     arrays = [data for tag, all_data in lists if tag == b"VIN" for tag, data in _items(all_data) if tag == b"Ver"]
     layers = _active_layers(dict(lists))
+    has_bodies = dict(_items(dict(lists).get(b"DYN", b""))).get(b"Var", b"\1")[0] & 1
     for tag, data in lists:
         if tag not in _KINDS:
             continue
@@ -162,7 +163,7 @@ def _objects(content: bytes) -> Iterator[FileObject]:
         made.is_visible = bool(struct.unpack("<H", common[b"Lar"])[0] & layers)
         if kind == "SHP":
             made.shape = _shape(own, arrays)
-            made.mass = _mass(own) if not made.shape.is_static and not flags & 0x20 else None
+            made.mass = _mass(own) if has_bodies and not made.shape.is_static and not flags & 0x20 else None
         yield made
 
 

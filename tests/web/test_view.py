@@ -159,3 +159,38 @@ def test_the_path_is_that_of_the_model(tmp_path: Path, show: Show) -> None:
         path = np.reshape(page.js(points), (-1, 3))
         ball = page.call("window.get_state", page.js("bubblesim.scene.byPath('/Ball').handle"))["pose"]
         assert np.linalg.norm(path[-1, :2] - ball[:2]) < 0.011  # the points have at least 1 cm between them
+
+
+HIDDEN = """<sdf version="1.9"><world name="w">
+<model name="Robot"><pose>0 0 0.2 0 0 0</pose><link name="link"><visual name="v">
+  <geometry><sphere><radius>0.2</radius></sphere></geometry>
+  <material><diffuse>1 0 0</diffuse></material></visual></link></model>
+<model name="Wall"><static>true</static><pose>0.6 -0.76 0.5 0 0 0.67</pose><link name="link"><visual name="v">
+  <geometry><box><size>2 0.05 1</size></box></geometry>
+  <material><diffuse>0 0 1</diffuse></material></visual></link></model>
+<gravity>0 0 0</gravity></world></sdf>"""
+SHARE_OF_RED = """(() => {
+  const { view, scene } = bubblesim;
+  const canvas = view.draw();
+  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+  copy.drawImage(canvas, 0, 0);
+  const place = view.camera.position.clone().fromArray(view.poseOf(scene.byPath("/Robot"))).project(view.camera);
+  const [x, y] = [(place.x + 1) * canvas.width / 2, (1 - place.y) * canvas.height / 2].map(Math.round);
+  const { data } = copy.getImageData(x - 4, y - 4, 8, 8);
+  let red = 0;
+  for (let i = 0; i < data.length; i += 4) red += data[i] > 2 * data[i + 2];
+  return red / 64;
+})()"""
+
+
+def test_a_robot_is_seen_through_the_wall_that_hides_it(tmp_path: Path, show: Show) -> None:
+    with Node(tmp_path, str(write(tmp_path / "hidden.sdf", HIDDEN)), "--paused") as node:
+        page = show(node)
+        assert page.js(SHARE_OF_RED) == 0.75
+        page.js("bubblesim.view.setSeeThrough(false)")
+        assert page.js(SHARE_OF_RED) == 0
+        page.js("bubblesim.view.setSeeThrough(true)")
+        page.select("/Wall")
+        assert page.js(SHARE_OF_RED) == 0.75  # of what stands, nothing is looked for
+        page.js("bubblesim.view.viewpoint.camera.position.set(-1, 1.2, 1)")
+        assert page.js(SHARE_OF_RED) == 1  # nothing hides it

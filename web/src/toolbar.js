@@ -148,6 +148,7 @@ export class Toolbar {
         h("label.entry", h("input", { type: "checkbox", checked: on, onchange: action }), h("span", title), key ? h("kbd", key) : null);
       menu.replaceChildren(
         entry("Shadows", view.shadows, () => view.setShadows(!view.shadows)),
+        entry("See through walls", view.seeThrough.on, () => view.setSeeThrough(!view.seeThrough.on)),
         ...view.overlays.map((each) => entry(each.title, each.on, () => view.setOverlay(each.id, !each.on), each.key)),
       );
     };

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import functools
+import logging
 import uuid
 from collections.abc import Iterator
 from pathlib import Path
@@ -20,6 +21,8 @@ from bubblesim.remote.token import read
 from bubblesim.scripting.api.functions import functions
 
 _PORT = 23000
+_SILENT_TIME = 2000  # ms without an answer until the program is told what it waits for
+_LOG = logging.getLogger(__name__)
 
 
 class Connection:
@@ -48,7 +51,11 @@ class Connection:
         self._socket.setsockopt(zmq.LINGER, 0)
         self._socket.connect(f"tcp://{self._address}")
         try:
-            known = self.call("zmqRemoteApi.info", "sim")
+            self._send("zmqRemoteApi.info", ["sim"])
+            if 1000 * timeout > _SILENT_TIME and not self._socket.poll(_SILENT_TIME):
+                text = "no answer from %s yet, waiting up to %g s: start a simulator with --remote=%d"
+                _LOG.warning(text, self._address, timeout, port)
+            known = self._reply("zmqRemoteApi.info")
         except TimeoutError:
             self.close()
             raise TimeoutError(
@@ -65,14 +72,8 @@ class Connection:
     def call(self, function: str, *arguments: Any) -> Any:
         """Call a function by its full name, such as 'sim.getObject'; raise RuntimeError with its error."""
         plain = [value.tolist() if isinstance(value, np.ndarray | np.generic) else value for value in arguments]
-        self._socket.send(cbor2.dumps({"func": function, "args": plain, "uuid": self._uuid, **self._secret}))
-        if not self._socket.poll(int(1000 * self._timeout)):
-            raise TimeoutError(f"no answer from {self._address} to {function} in {self._timeout:g} s")
-        reply = cbor2.loads(self._socket.recv())
-        if "err" in reply:
-            raise RuntimeError(reply["err"])
-        results = [_typed(value) for value in reply["ret"]]
-        return results[0] if len(results) == 1 else tuple(results) if results else None
+        self._send(function, plain)
+        return self._reply(function)
 
     def frames(self) -> Iterator[Frame]:
         """Yield the last frame of the simulation again and again, as it changes, up to 60 a second.
@@ -97,6 +98,18 @@ class Connection:
     def __exit__(self, *_error: object) -> None:
         """Disconnect."""
         self.close()
+
+    def _send(self, function: str, arguments: list[Any]) -> None:
+        self._socket.send(cbor2.dumps({"func": function, "args": arguments, "uuid": self._uuid, **self._secret}))
+
+    def _reply(self, function: str) -> Any:
+        if not self._socket.poll(int(1000 * self._timeout)):
+            raise TimeoutError(f"no answer from {self._address} to {function} in {self._timeout:g} s")
+        reply = cbor2.loads(self._socket.recv())
+        if "err" in reply:
+            raise RuntimeError(reply["err"])
+        results = [_typed(value) for value in reply["ret"]]
+        return results[0] if len(results) == 1 else tuple(results) if results else None
 
     def _function(self, name: str) -> Any:
         @functools.wraps(getattr(RemoteSim, name))

@@ -53,6 +53,8 @@ class GazeboServices:
         return server
 
     def _spawn(self, request: Message) -> Message:
+        if not request["model_xml"].strip():
+            raise ValueError("model_xml is empty: it must be the text of a model in SDFormat or URDF")
         pose = _pose(request["initial_pose"])
         frame = find_frame(self._world, request["reference_frame"])
         if frame is not None:

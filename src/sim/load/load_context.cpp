@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "load/load_context.hpp"
 
+#include <set>
+#include <system_error>
 #include <utility>
 
+#include "bubblesim/nearest_names.hpp"
 #include "load/find/model_folders.hpp"
 
 namespace bubblesim {
@@ -20,10 +23,18 @@ void LoadContext::warn(const Source& source, const std::string& object, std::str
   warnings_.push_back({source.file, source.line, object, std::move(message)});
 }
 
-std::string LoadContext::where_models_are() const {
+std::string LoadContext::where_models_are(const std::string& uri) const {
   std::string folders;
-  for (const std::filesystem::path& folder : model_folders(folder_)) folders += " " + folder.string();
-  return " (searched in" + folders + "; BUBBLESIM_MODEL_PATH adds folders)";
+  std::set<std::string> models;
+  for (const std::filesystem::path& folder : model_folders(folder_)) {
+    folders += " " + folder.string();
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+      if (std::filesystem::exists(entry.path() / "model.config", ignored)) models.insert(entry.path().filename());
+    }
+  }
+  return did_you_mean(std::filesystem::path(uri).filename().string(), {models.begin(), models.end()}) +
+         " (searched in" + folders + "; BUBBLESIM_MODEL_PATH adds folders)";
 }
 
 }  // namespace bubblesim

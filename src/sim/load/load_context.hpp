@@ -36,8 +36,8 @@ class LoadContext {
   void report(const Source& source, const std::string& object, std::string message);
   void warn(const Source& source, const std::string& object, std::string message);
 
-  /// Returns ` (searched in ...)`, for a model that is not found.
-  std::string where_models_are() const;
+  /// Returns `; did you mean ...? (searched in ...)`, for a model that is not found.
+  std::string where_models_are(const std::string& uri) const;
 
  private:
   std::string file_;

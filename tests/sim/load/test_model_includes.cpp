@@ -119,6 +119,13 @@ TEST_F(ModelIncludes, OfUnknownModelsAreLeftOutAndNameWhereWasSearched) {
   EXPECT_NE(reported.find("BUBBLESIM_MODEL_PATH"), std::string::npos) << reported;
 }
 
+TEST_F(ModelIncludes, OfMistypedModelsNameSimilarOnes) {
+  write_model("scene/models/shelf");
+  std::vector<Problem> warnings;
+  load("<include><uri>model://shelv</uri></include>", &warnings);
+  EXPECT_NE(lines_of(warnings).find("'model://shelv', ignored; did you mean shelf? (searched in"), std::string::npos);
+}
+
 TEST_F(ModelIncludes, ProblemsInsideAModelAreReportedInItsFile) {
   write_model("scene/near");
   write("scene/near/model.sdf",

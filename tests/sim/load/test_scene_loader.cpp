@@ -102,7 +102,20 @@ TEST(SceneFile, MissingFileIsNamed) {
     read_scene("nowhere/robot.sdf");
     FAIL();
   } catch (const SceneError& error) {
-    EXPECT_STREQ(error.what(), "nowhere/robot.sdf: file not found");
+    EXPECT_EQ(std::string(error.what()),
+              "nowhere/robot.sdf: file not found: there is no folder " + std::filesystem::absolute("nowhere").string());
+  }
+}
+
+TEST(SceneFile, SimilarFilesBesideAMissingOneAreNamed) {
+  const TemporaryFile file("robot.sdf", "");
+  const std::filesystem::path wanted = std::filesystem::path(file.folder()) / "robto.sdf";
+  try {
+    read_scene(wanted.string());
+    FAIL();
+  } catch (const SceneError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              wanted.string() + ": file not found; did you mean robot.sdf? (in " + wanted.parent_path().string() + ")");
   }
 }
 

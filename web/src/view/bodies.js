@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The shapes of the scene. Shapes of equal geometry and material are drawn together, as instances: thousands of boxes
 // cost one draw call.
-import { Color, DynamicDrawUsage, Group, InstancedMesh, Matrix4, Vector3 } from "three";
+import { Color, DynamicDrawUsage, Group, InstancedBufferAttribute, InstancedMesh, Matrix4, Vector3 } from "three";
 
 import { geometryKey, makeGeometry } from "./geometry.js";
 import { makeMaterial, makeTexture, materialKey } from "./materials.js";
@@ -23,6 +23,8 @@ class Batch {
       this.mesh = null;
     }
     if (!this.parts.length) return;
+    const still = Float32Array.from(this.parts, ({ link }) => (link.static ? 1 : 0));
+    this.geometry.setAttribute("still", new InstancedBufferAttribute(still, 1));
     const mesh = new InstancedMesh(this.geometry, this.material, this.parts.length);
     mesh.instanceMatrix.setUsage(DynamicDrawUsage);
     mesh.frustumCulled = false;

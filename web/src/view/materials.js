@@ -2,6 +2,8 @@
 // Materials as the simulator's cameras see them: diffuse reflection, checkerboards, images.
 import { Color, DataTexture, DoubleSide, LinearFilter, LinearMipmapLinearFilter, MeshLambertMaterial, RepeatWrapping, RGBAFormat } from "three";
 
+import { cutAway } from "./see_through.js";
+
 /// Two materials of equal key differ in their diffuse colours only.
 export function materialKey(material) {
   if (material.texture !== undefined) return `texture ${material.texture} ${material.emissive}`;
@@ -24,30 +26,31 @@ export function makeMaterial(material, loadTexture, diffuse = false) {
       made.map = texture;
       made.needsUpdate = true;
     });
-  } else if (material.checker_size) {
-    addChecker(made, material);
   }
+  const checkered = material.texture === undefined && material.checker_size;
+  made.onBeforeCompile = (shader) => {
+    if (checkered) addChecker(shader, material);
+    cutAway(shader);
+  };
+  made.customProgramCacheKey = () => (checkered ? "checkered" : "plain");
   return made;
 }
 
 /// Squares in the shape's frame, as in the simulator's own shading.
-function addChecker(made, { checker_size: size, checker_color: color }) {
-  made.onBeforeCompile = (shader) => {
-    shader.uniforms.checkerColor = { value: new Color(...color) };
-    shader.uniforms.checkerSize = { value: size };
-    shader.vertexShader = shader.vertexShader
-      .replace("#include <common>", "#include <common>\nvarying vec3 checkerPlace;")
-      .replace("#include <begin_vertex>", "#include <begin_vertex>\ncheckerPlace = position;");
-    shader.fragmentShader = shader.fragmentShader
-      .replace("#include <common>", "#include <common>\nvarying vec3 checkerPlace;\nuniform vec3 checkerColor;\nuniform float checkerSize;")
-      .replace(
-        "#include <color_fragment>",
-        `#include <color_fragment>
-        vec3 checkerCell = floor(checkerPlace / checkerSize + 1e-4);
-        if (mod(checkerCell.x + checkerCell.y + checkerCell.z, 2.0) > 0.5) diffuseColor.rgb = checkerColor;`,
-      );
-  };
-  made.customProgramCacheKey = () => "checker";
+function addChecker(shader, { checker_size: size, checker_color: color }) {
+  shader.uniforms.checkerColor = { value: new Color(...color) };
+  shader.uniforms.checkerSize = { value: size };
+  shader.vertexShader = shader.vertexShader
+    .replace("#include <common>", "#include <common>\nvarying vec3 checkerPlace;")
+    .replace("#include <begin_vertex>", "#include <begin_vertex>\ncheckerPlace = position;");
+  shader.fragmentShader = shader.fragmentShader
+    .replace("#include <common>", "#include <common>\nvarying vec3 checkerPlace;\nuniform vec3 checkerColor;\nuniform float checkerSize;")
+    .replace(
+      "#include <color_fragment>",
+      `#include <color_fragment>
+      vec3 checkerCell = floor(checkerPlace / checkerSize + 1e-4);
+      if (mod(checkerCell.x + checkerCell.y + checkerCell.z, 2.0) > 0.5) diffuseColor.rgb = checkerColor;`,
+    );
 }
 
 /// The texture of window.texture's result.

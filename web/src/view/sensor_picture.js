@@ -18,7 +18,7 @@ export function pictureFrom(view, sensor) {
   view.lights.follow(camera.position, 10);
   view.renderer.shadowMap.needsUpdate = true;
   view.renderer.setRenderTarget(target);
-  view.renderer.render(view.scene3d, camera);
+  view.seeThrough.without(() => view.renderer.render(view.scene3d, camera));
   const pixels = new Uint8Array(4 * width * height);
   view.renderer.readRenderTargetPixels(target, 0, 0, width, height, pixels);
   view.renderer.setRenderTarget(null);

@@ -25,6 +25,7 @@ import { overlays } from "./overlays/index.js";
 import { Pace } from "./pace.js";
 import { Picker } from "./picker.js";
 import { Poses } from "./poses.js";
+import { SeeThrough } from "./see_through.js";
 import { pictureFrom } from "./sensor_picture.js";
 import { Viewpoint } from "./viewpoint.js";
 
@@ -61,6 +62,7 @@ export class View extends Emitter {
     this.poses = new Poses(app);
     this.bodies = new Bodies(app, { shapes: (link) => link.visuals, material: (visual) => visual.material });
     this.lights = new Lights();
+    this.seeThrough = new SeeThrough(app);
     this.world = new Group();
     this.world.add(this.bodies.group);
     this.scene3d.add(this.lights.group, this.world);
@@ -117,6 +119,12 @@ export class View extends Emitter {
     localStorage.setItem("shadows", on ? "yes" : "no");
     this.#light();
     this.emit("options");
+  }
+
+  setSeeThrough(on) {
+    this.seeThrough.set(on);
+    this.emit("options");
+    this.invalidate();
   }
 
   /// { centre, radius } of an object's shapes in the world, of the whole scene for null.
@@ -234,6 +242,7 @@ export class View extends Emitter {
     this.emit("draw");
     this.lights.place((link) => this.matrixOf(link));
     this.lights.follow(this.viewpoint.controls.target, this.viewpoint.distance);
+    this.seeThrough.update();
     this.renderer.shadowMap.needsUpdate = true;
     this.renderer.render(this.scene3d, this.camera);
     this.#pace.drawn();

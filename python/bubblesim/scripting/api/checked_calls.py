@@ -163,6 +163,8 @@ class Parameters:
                 kind.convert(value)
             except (TypeError, ValueError, OverflowError) as error:
                 found = str(error) if isinstance(error, MismatchError) else f"found {shown(value)}"
+                if kind is HANDLE and isinstance(value, str):
+                    found += f"; sim.getObject('/{value.lstrip('/')}') returns it"
                 return f"argument {number}, {name}: expected {kind.words}, {found}"
         return None
 

@@ -130,7 +130,7 @@ class PythonCode:
         return traceback.format_exception_only(error)[-1].strip() + self._cure(error)
 
     def _cure(self, error: BaseException) -> str:
-        return missing_module(error, self._folder) or without_self(self._called_wrongly(error))
+        return missing_module(error, self._folder, self._globals) or without_self(self._called_wrongly(error))
 
     def _called_wrongly(self, error: BaseException) -> FunctionType | None:
         return called_wrongly(error, self._globals)

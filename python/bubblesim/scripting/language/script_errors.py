@@ -27,16 +27,23 @@ def without_self(function: FunctionType | None) -> str:
     return f"; `self` is a global of the script: write def {function.__name__}({', '.join(parameters[1:])}):"
 
 
-def missing_module(error: BaseException, folder: Path) -> str:
+def missing_module(error: BaseException, folder: Path, functions: Mapping[str, Any]) -> str:
     """Return what to do about a module that is not found; empty for other errors.
 
     :param folder: that of the script.
+    :param functions: what the script's names mean, among them `sim` and `simROS`.
     """
     if not isinstance(error, ModuleNotFoundError) or not error.name:
         return ""
     name = error.name.partition(".")[0]
     if name in sys.modules:
         return ""  # the package is there, but not all of it
+    return _how_to_get(name, folder, functions)
+
+
+def _how_to_get(name: str, folder: Path, functions: Mapping[str, Any]) -> str:
+    if name in functions:
+        return f"; {name} is there without an import: remove the line, or write {name} = require('{name}')"
     if (folder / f"{name}.py").is_file():
         return (
             f"; modules are not searched in {folder.resolve()}: begin the script with the line `include {name}`, "

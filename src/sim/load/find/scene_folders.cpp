@@ -38,6 +38,18 @@ std::string no_scene(const fs::path& path) {
   return {};
 }
 
+/// Names files beside one that does not exist, of its kind, and the folder.
+std::string similar_file(const fs::path& file) {
+  const fs::path folder = fs::absolute(file).parent_path();
+  std::vector<std::string> names;
+  std::error_code no_folder;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, no_folder)) {
+    if (entry.path().extension() == file.extension()) names.push_back(entry.path().filename());
+  }
+  if (no_folder) return ": there is no folder " + folder.string();
+  return did_you_mean(file.filename().string(), names) + " (in " + folder.string() + ")";
+}
+
 }  // namespace
 
 fs::path shared_folder(const std::string& name, const fs::path& source) {
@@ -81,7 +93,8 @@ fs::path find_scene(const std::string& name_or_path) {
   const std::set<fs::path> extensions = {".sdf", ".world", ".urdf", ".xacro", ".ttt", ".ttm"};
   if (path.has_parent_path() || extensions.count(path.extension()) > 0) {
     if (fs::is_regular_file(path)) return fs::absolute(path);
-    throw SceneError({{name_or_path, 0, "", fs::is_directory(path) ? "is a folder, not a scene" : "file not found"}});
+    if (fs::is_directory(path)) throw SceneError({{name_or_path, 0, "", "is a folder, not a scene"}});
+    throw SceneError({{name_or_path, 0, "", "file not found" + similar_file(path)}});
   }
   std::string searched;
   for (const fs::path& folder : scene_folders()) {

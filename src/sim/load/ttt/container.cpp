@@ -21,7 +21,7 @@ Container open_container(std::string_view file) {
   if (file.substr(0, 7) == "version") {
     fail_at(0, "it is a pointer of Git LFS, not the file itself: fetch it with 'git lfs pull'");
   }
-  if (file.substr(0, 4) != "VREP") fail_at(0, "it does not begin with VREP: it is no file of CoppeliaSim");
+  if (file.substr(0, 4) != "VREP") fail_at(0, "it does not begin with VREP: it is no .ttt or .ttm file of CoppeliaSim");
   if (file.size() < kHeader) fail_at(file.size(), "the file ends within its header: it is cut off");
   Bytes header(file.substr(4));
   Container container;

@@ -160,7 +160,7 @@ XmlElement Documents::foreign(const XmlElement& include, const XmlElement& paren
   }
   const fs::path file = file_of(uri, include);
   if (file.empty()) {
-    fail(include.source(), "includes " + uri + ", which does not exist" + context_.where_models_are());
+    fail(include.source(), "includes " + uri + ", which does not exist" + context_.where_models_are(uri));
   }
   XmlElement left = include;
   left.name = kForeignInclude;
@@ -221,7 +221,7 @@ const Documents::Included* Documents::find(const XmlElement& include) {
   const fs::path named = file_of(uri, include);
   if (named.empty()) {
     context_.warn(include.source(), include.child_text("name").empty() ? "" : "/" + include.child_text("name"),
-                  "model not found: '" + uri + "', ignored" + context_.where_models_are());
+                  "model not found: '" + uri + "', ignored" + context_.where_models_are(uri));
     return nullptr;
   }
   const std::string file = canonical(named.string());
