@@ -30,6 +30,7 @@ from bubblesim.gazebo_plugins.joints.gz_joint_controllers import (
 )
 from bubblesim.gazebo_plugins.joints.joint_pose_trajectory import JointPoseTrajectory
 from bubblesim.gazebo_plugins.joints.joint_state_publisher import GzJointStatePublisher, JointStatePublisher
+from bubblesim.gazebo_plugins.own_plugins import own_plugin
 from bubblesim.gazebo_plugins.plugin import Plugin
 from bubblesim.gazebo_plugins.sensors.baro import Baro
 from bubblesim.gazebo_plugins.sensors.block_laser import BlockLaser, VelodyneLaser
@@ -137,6 +138,14 @@ def library(filename: str) -> str:
     """
     name = PurePosixPath(filename).name.removesuffix(".so").removeprefix("lib")
     return re.sub(r"^(?:ignition-gazebo|gz-sim)\d*-", "gz-", name)
+
+
+def plugin_class(filename: str) -> type[Plugin] | None:
+    """Return the class of a plugin: of those here, or else of the user's; None if there is none.
+
+    :raises OwnPluginError: if it is the user's and cannot be loaded.
+    """
+    return PLUGINS.get(library(filename)) or own_plugin(filename)
 
 
 def why_unknown(name: str) -> str:
