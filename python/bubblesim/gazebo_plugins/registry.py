@@ -30,6 +30,7 @@ from bubblesim.gazebo_plugins.joints.gz_joint_controllers import (
 )
 from bubblesim.gazebo_plugins.joints.joint_pose_trajectory import JointPoseTrajectory
 from bubblesim.gazebo_plugins.joints.joint_state_publisher import GzJointStatePublisher, JointStatePublisher
+from bubblesim.gazebo_plugins.joints.mimic_joint import MimicJoint
 from bubblesim.gazebo_plugins.own_plugins import own_plugin
 from bubblesim.gazebo_plugins.plugin import Plugin
 from bubblesim.gazebo_plugins.sensors.baro import Baro
@@ -80,6 +81,7 @@ PLUGINS: dict[str, type[Plugin]] = {
     "gazebo_ros_ray_sensor": RaySensor,
     "gazebo_ros_skid_steer_drive": SkidSteerDrive,
     "gazebo_ros_tricycle_drive": TricycleDrive,
+    "gazebo_mimic_joint_plugin": MimicJoint,
     "hector_gazebo_ros_baro": Baro,
     "hector_gazebo_ros_gps": Gps,
     "hector_gazebo_ros_imu": HectorImu,
@@ -98,6 +100,8 @@ PLUGINS: dict[str, type[Plugin]] = {
     "gz-multicopter-motor-model-system": MulticopterMotor,
     "gz-odometry-publisher-system": GzOdometryPublisher,
     "gz-wind-effects-system": WindEffects,
+    "roboticsgroup_gazebo_mimic_joint_plugin": MimicJoint,
+    "roboticsgroup_upatras_gazebo_mimic_joint_plugin": MimicJoint,
     "rotors_gazebo_motor_model": MulticopterMotor,
     "gz-apply-joint-force-system": GzApplyJointForce,
     "gz-joint-controller-system": GzJointController,
