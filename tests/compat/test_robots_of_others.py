@@ -9,31 +9,19 @@ from typing import Any
 import pytest
 
 from launch_support import ROBOTS, launched, with_packages
-from node_support import write
 from process_support import cpu_seconds
+from robots_of_others import NOT_MOUNTED, add_packages
 from ros_support import DEADLINE, SUPPORT, RosCore, wait_until
 from service_caller import ServiceCaller
 
 pytestmark = pytest.mark.skipif(ROBOTS is None, reason="the robots of others are not there")
 
-# Packages of sensors that the robots do not carry, whose files their descriptions include all the same.
-NOT_MOUNTED = {
-    "fath_pivot_mount_description": ["lockmount.urdf.xacro"],
-    "flir_camera_description": ["flir_blackflys.urdf.xacro"],
-    "realsense2_description": ["_d435.urdf.xacro"],
-    "velodyne_description": ["VLP-16.urdf.xacro", "HDL-32E.urdf.xacro"],
-}
-EMPTY = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"/>'
 SPEED = {"BUBBLESIM_GAZEBO_OPTIONS": "--speed 3 --seed 1"}
 
 
 def environment(core: RosCore, folder: Path, **more: str) -> dict[str, str]:
     assert ROBOTS is not None
-    for package, files in NOT_MOUNTED.items():
-        (folder / package / "urdf").mkdir(parents=True)
-        write(folder / package / "package.xml", f"<package><name>{package}</name></package>")
-        for name in files:
-            write(folder / package / "urdf" / name, EMPTY)
+    add_packages(folder, NOT_MOUNTED)
     return with_packages(core.env, ROBOTS, folder, **SPEED, **more)
 
 
