@@ -166,11 +166,19 @@ def test_a_pendulum_is_held_by_its_position_controllers(tmp_path: Path) -> None:
                 "/gazebo",
                 expected=["/rrbot/laser/scan", "/rrbot/joint_states", "/rrbot/camera1/image_raw"],
             )
+            cost, begin = Cost(core), simulated(call)
+            wait_until(lambda: simulated(call) > begin + 3.0, "three seconds", 2 * DEADLINE)
+            cost.check(simulated(call) - begin)
             command = "/rrbot/joint1_position_controller/command"
             with core.publishing(command, "std_msgs/Float64", "data: 0.8"):
                 # The gain of 100 N m/rad bears the weight, at most 15.2 N m for what the second joint may hold, its
                 # position when its controller started, with an error of up to 0.152 rad.
                 wait_until(lambda: abs(rrbot_error(core)) < 0.16, "the position", 2 * DEADLINE)
+
+
+def simulated(call: ServiceCaller) -> float:
+    """Return the time of the simulation, s."""
+    return float(call("/gazebo/get_world_properties")["sim_time"])
 
 
 def rrbot_error(core: RosCore) -> float:
