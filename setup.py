@@ -10,7 +10,7 @@ setup(
         package_dir={"": "python"},
         package_data={
             "bubblesim.scripting.language": ["*.lua"],
-            "bubblesim.cli": ["templates/*.in"],
+            "bubblesim.cli": ["templates/*.in", "templates/*/*.in"],
             "bubblesim.messages": ["ros2/*/*/*", "ros2_before_iron/*/*/*"],
             "bubblesim.gym_tasks": ["scenes/*.sdf"],
         },

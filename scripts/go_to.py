@@ -5,8 +5,8 @@
 Subscribes to map, scan and move_base_simple/goal; publishes cmd_vel, ~path, ~arrived (Bool) at the end of each goal.
 Parameters: ~map_frame, ~base_frame, ~radius (m, of the robot), ~length and ~width (m, of a rectangular robot, otherwise
 0), ~comfort (m, preferred distance to walls), ~max_speed (m/s), ~max_turn (rad/s), ~acceleration (m/s2),
-~lookahead (m), ~turning_radius (m, 0 for a robot that turns in place), ~tolerance (m), ~patience (s in front of an
-obstacle after which the goal is aborted).
+~lookahead (m), ~turning_radius (m, 0 for a robot that turns in place), ~tolerance (m), ~yaw_tolerance (rad),
+~patience (s in front of an obstacle after which the goal is aborted).
 """
 
 import signal

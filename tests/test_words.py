@@ -32,6 +32,7 @@ IN_PAGES = {r"\b[Oo]nes? that\b": "the thing by its name", r"\bsay\b": "state, r
 # Files in which such a word is meant.
 MEANT = {
     "docs/ros/goals.md": "~patience, as move_base has planner_patience",
+    "python/bubblesim/compat/move_base_settings.py": "planner_patience",
     "scenes/models/living_room/model.sdf": "a room has a door",
     "scripts/go_to.py": "~patience",
     "tests/slam/test_tricycle_goal.py": "~patience",

@@ -78,3 +78,48 @@ def test_a_node_that_is_late_loses_no_message(roscore: RosCore, peer: Peer, node
     assert pose["position"]["x"] == pytest.approx(1.0 + math.cos(1.0), abs=1e-6)
     assert pose["position"]["y"] == pytest.approx(math.sin(1.0), abs=1e-6)
     assert 2 * math.atan2(pose["orientation"]["z"], pose["orientation"]["w"]) == pytest.approx(1.0, abs=1e-6)
+
+
+def turned(roscore: RosCore, peer: Peer, message: Message) -> float:
+    """Return the heading after a second of this message of the IMU, and of odometry at rest."""
+    filtered = Messages(peer, "/odometry/filtered", "nav_msgs/Odometry")
+    time = 10.0
+
+    def send(more: Message) -> None:
+        nonlocal time
+        time += PERIOD
+        peer.publish("/imu", "sensor_msgs/Imu", {**more, "header": header(time)})
+        peer.publish("/odom", "nav_msgs/Odometry", odometry(time, 0.0))
+
+    def is_connected() -> bool:
+        send({"orientation": message["orientation"]})
+        return bool(peer.received("/odometry/filtered"))
+
+    wait_until(is_connected, "the first message")
+    for _ in range(round(1.0 / PERIOD)):
+        send(message)
+    for _ in range(10):
+        send({"orientation": message["orientation"]})
+    last = time - 1.5 * PERIOD
+    turn = filtered.next(lambda found: found["header"]["stamp"] > last, "the last message")["pose"]["pose"][
+        "orientation"
+    ]
+    return 2 * math.atan2(turn["z"], turn["w"])
+
+
+@pytest.mark.parametrize("roll", [0.0, 0.5])
+def test_on_a_slope_the_rates_about_all_axes_turn_the_robot(roscore: RosCore, peer: Peer, roll: float) -> None:
+    """Rolled by an angle, a turn of 0.4 rad/s about the vertical has parts about y and z of the IMU."""
+    name = "ekf_localization"
+    configuration = [False] * 3 + [True] * 2 + [False] * 4 + [True] * 3 + [False] * 3
+    for parameter, value in (("odom0", "/odom"), ("imu0", "/imu"), ("imu0_config", configuration)):
+        roscore.set_param(f"/{name}/{parameter}", value)
+    process = start(["rosrun", "robot_localization", "ekf_localization_node", f"__name:={name}"], roscore.env)
+    try:
+        wait_until(lambda: {"/odom", "/imu"} <= roscore.state()["subscribers"].keys(), "its subscribers")
+        rates = {"y": 0.4 * math.sin(roll), "z": 0.4 * math.cos(roll)}
+        tilted = {"x": math.sin(roll / 2), "y": 0.0, "z": 0.0, "w": math.cos(roll / 2)}
+        message = {"angular_velocity": rates, "orientation": tilted}
+        assert turned(roscore, peer, message) == pytest.approx(0.4, abs=1e-6)
+    finally:
+        stop(process)

@@ -9,30 +9,19 @@ from typing import Any
 import pytest
 
 from launch_support import ROBOTS, launched, with_packages
-from node_support import write
+from process_support import cpu_seconds
+from robots_of_others import NOT_MOUNTED, add_packages
 from ros_support import DEADLINE, SUPPORT, RosCore, wait_until
 from service_caller import ServiceCaller
 
 pytestmark = pytest.mark.skipif(ROBOTS is None, reason="the robots of others are not there")
 
-# Packages of sensors that the robots do not carry, whose files their descriptions include all the same.
-NOT_MOUNTED = {
-    "fath_pivot_mount_description": ["lockmount.urdf.xacro"],
-    "flir_camera_description": ["flir_blackflys.urdf.xacro"],
-    "realsense2_description": ["_d435.urdf.xacro"],
-    "velodyne_description": ["VLP-16.urdf.xacro", "HDL-32E.urdf.xacro"],
-}
-EMPTY = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"/>'
 SPEED = {"BUBBLESIM_GAZEBO_OPTIONS": "--speed 3 --seed 1"}
 
 
 def environment(core: RosCore, folder: Path, **more: str) -> dict[str, str]:
     assert ROBOTS is not None
-    for package, files in NOT_MOUNTED.items():
-        (folder / package / "urdf").mkdir(parents=True)
-        write(folder / package / "package.xml", f"<package><name>{package}</name></package>")
-        for name in files:
-            write(folder / package / "urdf" / name, EMPTY)
+    add_packages(folder, NOT_MOUNTED)
     return with_packages(core.env, ROBOTS, folder, **SPEED, **more)
 
 
@@ -41,9 +30,30 @@ def topic(core: RosCore, name: str) -> str:
     return core.run("rostopic", "echo", "-n", "1", name)
 
 
-def drive(env: dict[str, str], *arguments: object) -> dict[str, Any]:
+def check_topics(env: dict[str, str], *nodes: str, expected: list[str]) -> None:
+    """Check the values on all topics of nodes, among which are the expected ones."""
+    checked = result_of(env, "check_topics.py", *nodes)
+    assert set(expected) <= set(checked["topics"]), checked["topics"]
+    assert not checked["problems"], json.dumps(checked["problems"], indent=1)
+
+
+class Cost:
+    """The processor time of the simulator in an interval of simulated time."""
+
+    def __init__(self, core: RosCore) -> None:
+        self._pid = core.pid_of("/gazebo")
+        self._before = cpu_seconds(self._pid)
+
+    def check(self, simulated: float) -> None:
+        """Assert that one core simulates three times as fast as real time."""
+        share = (cpu_seconds(self._pid) - self._before) / simulated
+        assert share < 1 / 3, f"{share:.2f} s of processor time a second"
+
+
+def result_of(env: dict[str, str], program: str, *arguments: object) -> dict[str, Any]:
+    """Return the JSON that a program of the tests prints."""
     run = subprocess.run(
-        ["/usr/bin/python3", str(SUPPORT / "drive_robot.py"), *map(str, arguments)],
+        ["/usr/bin/python3", str(SUPPORT / program), *map(str, arguments)],
         env=env,
         capture_output=True,
         text=True,
@@ -104,27 +114,14 @@ def test_mobile_robots_drive_and_turn_as_their_odometry_reports(
         ):
             wait_until(lambda: model in call("/gazebo/get_world_properties")["model_names"], "the robot", 3 * DEADLINE)
             wait_until(lambda: odometry in core.state()["publishers"], "its odometry", 3 * DEADLINE)
-            for name in topics:
-                assert "nan" not in topic(core, name), name
-            moved = drive(env, model, commands, odometry, *speeds)
+            check_topics(env, "/gazebo", "/ekf_localization", expected=topics)
+            cost = Cost(core)
+            moved = result_of(env, "drive_robot.py", model, commands, odometry, *speeds)
+            cost.check(moved["took"])
         for quantity in ("distances", "angles"):
             reported, true = moved[quantity]
             assert reported == pytest.approx(true, rel=0.03), moved
         assert moved["distances"][1] >= 1.9
-
-
-def follow(env: dict[str, str], controller: str, **goal: Any) -> dict[str, Any]:
-    run = subprocess.run(
-        ["/usr/bin/python3", str(SUPPORT / "follow_trajectory.py"), controller, json.dumps(goal)],
-        env=env,
-        capture_output=True,
-        text=True,
-        timeout=6 * DEADLINE,
-        check=False,
-    )
-    assert run.returncode == 0, run.stderr
-    result: dict[str, Any] = json.loads(run.stdout.splitlines()[-1])
-    return result
 
 
 def running(call: ServiceCaller, namespace: str, *controllers: str) -> bool:
@@ -143,7 +140,11 @@ def test_an_arm_moves_through_a_trajectory(tmp_path: Path) -> None:
             goal = [0.5, -1.2, 1.0, -0.5, 0.4, 0.3]
             points = [[2.0, [0.0, -1.57, 0.0, -1.57, 0.0, 0.0], [0.0] * 6], [4.0, goal, [0.0] * 6]]
             joints = [f"{name}_joint" for name in names]
-            result = follow(env, "/eff_joint_traj_controller", names=joints, points=points)
+            cost = Cost(core)
+            goal_of_arm = json.dumps({"names": joints, "points": points})
+            result = result_of(env, "follow_trajectory.py", "/eff_joint_traj_controller", goal_of_arm)
+            cost.check(result["took"])
+            check_topics(env, "/gazebo", "/robot_state_publisher", expected=["/joint_states", "/tf"])
             assert (result["state"], result["error_code"]) == (3, 0), result
             assert result["largest_error"] < 0.05, "half the tolerance of its controllers"
             assert [result["positions"][name] for name in joints] == pytest.approx(goal, abs=0.1)
@@ -160,12 +161,24 @@ def test_a_pendulum_is_held_by_its_position_controllers(tmp_path: Path) -> None:
             ServiceCaller(core) as call,
         ):
             wait_until(lambda: running(call, "/rrbot", "joint1_position_controller"), "the controllers", 3 * DEADLINE)
-            assert "ranges" in topic(core, "/rrbot/laser/scan")
+            check_topics(
+                env,
+                "/gazebo",
+                expected=["/rrbot/laser/scan", "/rrbot/joint_states", "/rrbot/camera1/image_raw"],
+            )
+            cost, begin = Cost(core), simulated(call)
+            wait_until(lambda: simulated(call) > begin + 3.0, "three seconds", 2 * DEADLINE)
+            cost.check(simulated(call) - begin)
             command = "/rrbot/joint1_position_controller/command"
             with core.publishing(command, "std_msgs/Float64", "data: 0.8"):
                 # The gain of 100 N m/rad bears the weight, at most 15.2 N m for what the second joint may hold, its
                 # position when its controller started, with an error of up to 0.152 rad.
                 wait_until(lambda: abs(rrbot_error(core)) < 0.16, "the position", 2 * DEADLINE)
+
+
+def simulated(call: ServiceCaller) -> float:
+    """Return the time of the simulation, s."""
+    return float(call("/gazebo/get_world_properties")["sim_time"])
 
 
 def rrbot_error(core: RosCore) -> float:

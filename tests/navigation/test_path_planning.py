@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bubblesim.navigation.grid_map import GridMap
-from bubblesim.navigation.path_planning import Footprint, NoPathError, plan
+from bubblesim.navigation.path_planning import Footprint, NoPathError, is_clear, passable, plan
 from rooms import drawn
 
 SLIM = Footprint(radius=0.1, comfort=0.1)
@@ -100,3 +100,20 @@ def test_paths_are_as_short_as_by_another_method(seed: int) -> None:
             plan(grid, (0.5, 0.5), (14.5, 14.5), SLIM)
     else:
         assert length(plan(grid, (0.5, 0.5), (14.5, 14.5), SLIM)) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("heading", [0.0, 0.7])
+def test_a_path_is_clear_where_the_robot_can_be_on_all_of_the_map(heading: float) -> None:
+    random = np.random.default_rng(1)
+    found = []
+    for _ in range(200):
+        cells = np.where(random.random((30, 40)) < 0.02, 100, 0).astype(np.int8)
+        grid = GridMap(cells, 0.1, (-1.0, 2.0, heading))
+        footprint = Footprint(float(random.uniform(0.1, 0.5)), 0.5)
+        path = [grid.centre_of((int(row), int(column))) for row, column in random.integers(-1, 31, (3, 2))]
+        may_pass = passable(grid, footprint)
+        expected = all(grid.has(cell) and may_pass[cell] for cell in map(grid.cell_of, path))
+        assert is_clear(grid, path, footprint) == expected
+        found.append(expected)
+    assert 20 < sum(found) < 180
+    assert is_clear(grid, [], footprint)

@@ -5,7 +5,6 @@ import math
 
 import pytest
 
-from bubblesim.compat.move_base import driver_parameters
 from node_types import Ask, Start
 
 # A room of 6 by 4 m with the robot at (1, 2); goals by the action: one that is reached, one that is cancelled, one in a
@@ -115,21 +114,6 @@ def test_goals_of_the_action_are_driven_to_and_cancelled(node: Start, ask: Ask) 
     assert seen["moved"] < 0.05
     assert seen["place"][0] > 1.5, "it stopped on its way"
     assert seen["feedback"] == "map"
-
-
-def test_parameters_that_mean_the_same_are_passed_on() -> None:
-    given = {
-        "global_costmap": {"global_frame": "map", "robot_base_frame": "base_footprint"},
-        "local_costmap": {"robot_radius": 0.2},
-        "DWAPlannerROS": {"max_vel_trans": 0.4, "max_vel_theta": 1.2, "sim_time": 1.7},
-    }
-    assert driver_parameters(given) == {
-        "map_frame": "map",
-        "base_frame": "base_footprint",
-        "radius": 0.2,
-        "max_speed": 0.4,
-        "max_turn": 1.2,
-    }
 
 
 def test_plans_lead_around_obstacles_and_costmaps_show_them(node: Start, ask: Ask) -> None:

@@ -93,10 +93,11 @@ def main() -> None:
     drive = Drive(model, commands, odometry)
     while drive.odometry is None or drive.truth is None or drive.commands.get_num_connections() == 0:
         time.sleep(0.05)
+    begin = rospy.get_time()
     drive.rest()  # it settles
     distances = drive.ahead(float(linear), 2.0)
     angles = drive.turn(float(angular), math.pi)
-    print(json.dumps({"distances": distances, "angles": angles}), flush=True)
+    print(json.dumps({"distances": distances, "angles": angles, "took": rospy.get_time() - begin}), flush=True)
 
 
 if __name__ == "__main__":

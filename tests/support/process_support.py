@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the kernel knows of a process."""
 
+import os
 from pathlib import Path
 
 
@@ -13,3 +14,9 @@ def status(pid: int, name: str) -> int:
     """Return a number of its status, such as VmRSS (KiB) or Threads."""
     lines = Path(f"/proc/{pid}/status").read_text().splitlines()
     return next(int(line.split()[1]) for line in lines if line.startswith(f"{name}:"))
+
+
+def cpu_seconds(pid: int) -> float:
+    """Return the processor time of all its threads so far."""
+    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")

@@ -19,6 +19,7 @@ _COMMANDS = (
     "shell",
     "scenes",
     "new-scene",
+    "new-plugin",
     "check",
     "describe",
     "convert",
@@ -43,6 +44,7 @@ Runs robot scenes and helps to write them. Begin with:
   bubblesim run tricycle --roscore       run one, with a ROS master
   bubblesim shell tricycle --no-ros      a Python prompt with `sim`
   bubblesim new-scene mine               create a new scene
+  bubblesim new-plugin mine --python     create a package with a plugin of your own
   bubblesim check my/robot.sdf           validate a file
   bubblesim describe scene.ttt           show what a file of CoppeliaSim has
   bubblesim convert scene.ttt folder     write it as SDFormat

@@ -3,8 +3,7 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any
 
 import rospy
@@ -12,115 +11,121 @@ from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import OccupancyGrid
 from nav_msgs.msg import Path as PathMessage
 from nav_msgs.srv import GetPlan, GetPlanResponse
-from sensor_msgs.msg import LaserScan
 
 from bubblesim.compat.costmaps import Inflation, costmap_message, rolling_grid
+from bubblesim.compat.move_base_settings import INFLATION_LAYERS, MoveBaseParameters, Settings
 from bubblesim.controllers.planar_motion import Pose2D
 from bubblesim.navigation.grid_map import GridMap
-from bubblesim.navigation.path_planning import Footprint, NoPathError, plan
-from bubblesim.navigation.planar import Point, hits, placed
+from bubblesim.navigation.path_planning import NoPathError, plan
+from bubblesim.navigation.planar import Point, placed
 
-_SIDE = 10.0  # m, of the local costmap, as in costmap_2d
+_SIDE, _RATE = 10.0, 2.0  # m, of the local costmap, and Hz
 
 PlaceOf = Callable[[str, str], Pose2D | None]
 """The pose of a frame in another one; None without a transform."""
 
 
 class MoveBaseMaps:
-    """Keeps the newest map and scan; both costmaps are published at the local one's publish_frequency."""
+    """Both costmaps are published at their publish_frequency, the global one of a map when that has changed."""
 
     def __init__(
-        self, frames: tuple[str, str], footprint: Footprint, given: Mapping[str, Any], place_of: PlaceOf
+        self,
+        settings: Settings,
+        parameters: MoveBaseParameters,
+        place_of: PlaceOf,
+        grid: Callable[[], GridMap | None],
+        hits: Callable[[], list[Point]],
     ) -> None:
-        """:param frames: of the map and of the robot."""
-        self._map_frame, self._base_frame = frames
-        self._footprint = footprint
+        """Advertise the topics and the service.
+
+        :param grid: returns the map.
+        :param hits: returns the points of the newest scans, in the robot's frame.
+        """
+        self._settings = settings
         self._place_of = place_of
-        local = given.get("local_costmap", {})
-        self._local_frame = str(local.get("global_frame", self._map_frame))
-        self._size = float(local.get("width", _SIDE)), float(local.get("height", _SIDE))
-        self._resolution = float(local.get("resolution", 0.05))
-        self._inflations = {
-            name: _inflation(given.get(name, {}), footprint.radius) for name in ("global_costmap", "local_costmap")
-        }
-        self._lock = threading.Lock()
-        self._known: Any = None  # origin and cells of the newest map
-        self._grid: GridMap | None = None
-        self._hits: list[Point] = []  # in the robot's frame
+        self._grid = grid
+        self._hits = hits
+        self._local_frame = str(parameters.find("local_costmap/global_frame") or settings.map_frame).lstrip("/")
+        self._size = tuple(parameters.number(_SIDE, f"local_costmap/{name}") for name in ("width", "height"))
+        self._resolution = parameters.number(0.05, "local_costmap/resolution")
+        radius = settings.footprint.radius
+        self._inflations = {name: _inflation(parameters, name, radius) for name in ("global_costmap", "local_costmap")}
         self._costmaps = {
             name: rospy.Publisher(f"~{name}/costmap", OccupancyGrid, queue_size=1, latch=True)
             for name in self._inflations
         }
-        rospy.Subscriber("map", OccupancyGrid, self._on_map, queue_size=1)
-        rospy.Subscriber("scan", LaserScan, self._on_scan, queue_size=1)
         rospy.Service("~make_plan", GetPlan, self._make_plan)
-        frequency = float(local.get("publish_frequency", 2.0))
+        self._repeat("local_costmap", parameters, self._publish_local)
+        if settings.obstacle_layer is not None:
+            self._repeat("global_costmap", parameters, self._publish_seen)
+
+    def _repeat(self, name: str, parameters: MoveBaseParameters, publish: Callable[[], None]) -> None:
+        frequency = parameters.number(_RATE, f"{name}/publish_frequency")
         if frequency > 0.0:
-            rospy.Timer(rospy.Duration.from_sec(1.0 / frequency), lambda _: self._publish_local(), reset=True)
+            rospy.Timer(rospy.Duration.from_sec(1.0 / frequency), lambda _: publish(), reset=True)
 
-    def _on_map(self, message: Any) -> None:
-        if not message.data or (message.info.origin, message.data) == self._known:
-            return
-        self._known = message.info.origin, message.data
-        grid = GridMap.from_message(message)
-        with self._lock:
-            self._grid = grid
-        costs = costmap_message(self._map_frame, rospy.Time.now(), grid, self._inflations["global_costmap"])
-        self._costmaps["global_costmap"].publish(costs)
+    def publish_global(self) -> None:
+        """Publish the global costmap."""
+        grid = self._grid()
+        if grid is not None:
+            inflation = self._inflations["global_costmap"]
+            costs = costmap_message(self._settings.map_frame, rospy.Time.now(), grid, inflation)
+            self._costmaps["global_costmap"].publish(costs)
 
-    def _on_scan(self, scan: Any) -> None:
-        lidar = self._place_of(scan.header.frame_id, self._base_frame)
-        if lidar is not None:
-            found = hits(scan, lidar)
-            with self._lock:
-                self._hits = found
+    def _publish_seen(self) -> None:
+        if self._costmaps["global_costmap"].get_num_connections():
+            self.publish_global()
 
     def _publish_local(self) -> None:
         publisher = self._costmaps["local_costmap"]
-        place = self._place_of(self._base_frame, self._local_frame) if publisher.get_num_connections() else None
+        base = self._settings.base_frame
+        place = self._place_of(base, self._local_frame) if publisher.get_num_connections() else None
         if place is None:
             return
-        with self._lock:
-            obstacles = [placed(place, point) for point in self._hits]
-        grid = rolling_grid((place.x, place.y), self._size, self._resolution, obstacles)
+        obstacles = [placed(place, point) for point in self._hits()]
+        grid = rolling_grid((place.x, place.y), (self._size[0], self._size[1]), self._resolution, obstacles)
         stamp = rospy.Time.now()
         publisher.publish(costmap_message(self._local_frame, stamp, grid, self._inflations["local_costmap"]))
 
+    def path_message(self, points: list[Point]) -> Any:
+        """Return a path in the frame of the map."""
+        path = PathMessage()
+        path.header.frame_id = self._settings.map_frame
+        path.header.stamp = rospy.Time.now()
+        for x, y in points:
+            pose = PoseStamped(header=path.header)
+            pose.pose.position.x, pose.pose.position.y, pose.pose.orientation.w = x, y, 1.0
+            path.poses.append(pose)
+        return path
+
     def _make_plan(self, request: Any) -> Any:
         """Return the path on the map from a pose, or from the robot if it has no frame; without one, an empty path."""
-        response = GetPlanResponse(plan=PathMessage())
-        response.plan.header.frame_id = self._map_frame
-        response.plan.header.stamp = rospy.Time.now()
-        with self._lock:
-            grid = self._grid
+        grid = self._grid()
         start = self._point(request.start) if request.start.header.frame_id else self._robot()
         goal = self._point(request.goal)
         if grid is None or start is None or goal is None:
             rospy.logwarn("make_plan: there is no map, or no transform of the start or the goal")
-            return response
+            return GetPlanResponse(plan=self.path_message([]))
         try:
-            points = plan(grid, start, goal, self._footprint)
+            points = plan(grid, start, goal, self._settings.footprint)
         except NoPathError as error:
             rospy.logwarn(f"make_plan: {error}")
-            return response
-        for x, y in points:
-            pose = PoseStamped(header=response.plan.header)
-            pose.pose.position.x, pose.pose.position.y, pose.pose.orientation.w = x, y, 1.0
-            response.plan.poses.append(pose)
-        response.plan.poses[-1].pose.orientation = request.goal.pose.orientation
-        return response
+            return GetPlanResponse(plan=self.path_message([]))
+        found = self.path_message(points)
+        found.poses[-1].pose.orientation = request.goal.pose.orientation
+        return GetPlanResponse(plan=found)
 
     def _robot(self) -> Point | None:
-        place = self._place_of(self._base_frame, self._map_frame)
+        place = self._place_of(self._settings.base_frame, self._settings.map_frame)
         return None if place is None else (place.x, place.y)
 
     def _point(self, pose: Any) -> Point | None:
-        frame = self._place_of(pose.header.frame_id, self._map_frame)
+        frame = self._place_of(pose.header.frame_id.lstrip("/"), self._settings.map_frame)
         return None if frame is None else placed(frame, (pose.pose.position.x, pose.pose.position.y))
 
 
-def _inflation(costmap: Mapping[str, Any], radius: float) -> Inflation:
-    layer = costmap.get("inflation_layer", costmap)
-    layer = layer if isinstance(layer, Mapping) else costmap
-    reach = float(layer.get("inflation_radius", Inflation.reach))
-    return Inflation(radius, reach, float(layer.get("cost_scaling_factor", Inflation.scaling)))
+def _inflation(parameters: MoveBaseParameters, costmap: str, radius: float) -> Inflation:
+    layers = [f"{costmap}/{layer}" for layer in INFLATION_LAYERS]
+    reach = parameters.number(Inflation.reach, *(f"{layer}inflation_radius" for layer in layers))
+    scaling = parameters.number(Inflation.scaling, *(f"{layer}cost_scaling_factor" for layer in layers))
+    return Inflation(radius, reach, scaling)

@@ -20,6 +20,10 @@ Message = dict[str, Any]
 FASTEST = 1e6  # rad/s or m/s: limit of the physics
 
 
+class FailedInSubstepError(RuntimeError):
+    """What a plugin has in C++ failed in a physics substep, between two calls of the plugin."""
+
+
 class StepTime:
     """The time stamp of all messages of plugins in a step: the end of the step. Wall time advances during the step."""
 

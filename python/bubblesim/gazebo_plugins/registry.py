@@ -30,6 +30,8 @@ from bubblesim.gazebo_plugins.joints.gz_joint_controllers import (
 )
 from bubblesim.gazebo_plugins.joints.joint_pose_trajectory import JointPoseTrajectory
 from bubblesim.gazebo_plugins.joints.joint_state_publisher import GzJointStatePublisher, JointStatePublisher
+from bubblesim.gazebo_plugins.joints.mimic_joint import MimicJoint
+from bubblesim.gazebo_plugins.own_plugins import own_plugin
 from bubblesim.gazebo_plugins.plugin import Plugin
 from bubblesim.gazebo_plugins.sensors.baro import Baro
 from bubblesim.gazebo_plugins.sensors.block_laser import BlockLaser, VelodyneLaser
@@ -79,6 +81,7 @@ PLUGINS: dict[str, type[Plugin]] = {
     "gazebo_ros_ray_sensor": RaySensor,
     "gazebo_ros_skid_steer_drive": SkidSteerDrive,
     "gazebo_ros_tricycle_drive": TricycleDrive,
+    "gazebo_mimic_joint_plugin": MimicJoint,
     "hector_gazebo_ros_baro": Baro,
     "hector_gazebo_ros_gps": Gps,
     "hector_gazebo_ros_imu": HectorImu,
@@ -97,6 +100,8 @@ PLUGINS: dict[str, type[Plugin]] = {
     "gz-multicopter-motor-model-system": MulticopterMotor,
     "gz-odometry-publisher-system": GzOdometryPublisher,
     "gz-wind-effects-system": WindEffects,
+    "roboticsgroup_gazebo_mimic_joint_plugin": MimicJoint,
+    "roboticsgroup_upatras_gazebo_mimic_joint_plugin": MimicJoint,
     "rotors_gazebo_motor_model": MulticopterMotor,
     "gz-apply-joint-force-system": GzApplyJointForce,
     "gz-joint-controller-system": GzJointController,
@@ -137,6 +142,14 @@ def library(filename: str) -> str:
     """
     name = PurePosixPath(filename).name.removesuffix(".so").removeprefix("lib")
     return re.sub(r"^(?:ignition-gazebo|gz-sim)\d*-", "gz-", name)
+
+
+def plugin_class(filename: str) -> type[Plugin] | None:
+    """Return the class of a plugin: of those here, or else of the user's; None if there is none.
+
+    :raises OwnPluginError: if it is the user's and cannot be loaded.
+    """
+    return PLUGINS.get(library(filename)) or own_plugin(filename)
 
 
 def why_unknown(name: str) -> str:

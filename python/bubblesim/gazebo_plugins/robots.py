@@ -5,12 +5,14 @@ from __future__ import annotations
 
 import json
 import sys
+import traceback
 from collections.abc import Iterator
 from typing import Any
 
+from bubblesim.gazebo_plugins.own_plugins import OwnPluginError
 from bubblesim.gazebo_plugins.parameters import ParameterError, Parameters
-from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext, StepTime
-from bubblesim.gazebo_plugins.registry import PLUGINS, library
+from bubblesim.gazebo_plugins.plugin import FailedInSubstepError, Plugin, PluginContext, StepTime
+from bubblesim.gazebo_plugins.registry import library, plugin_class
 from bubblesim.gazebo_plugins.saved_state import collected, restored
 from bubblesim.gazebo_plugins.sensors.gz_sensor import GzSensor, publishes_as_gz
 from bubblesim.gazebo_plugins.sensors.sensor_topic import NoPlugin, SensorTopic
@@ -39,7 +41,6 @@ class GazeboPlugins:
         self._unknown = UnknownPlugins()
         self._step = StepLength(simulation, enabled=follows_rates)
         for description in simulation.plugins:
-            self._unknown.report(description)
             self._add(description, _WORLD, _WORLD, None)
         self._systems = {library(description.filename) for description in simulation.plugins}
         # A robot file loaded without a world is treated as gazebo_ros spawns it, with topics at the root.
@@ -57,7 +58,6 @@ class GazeboPlugins:
         systems = set(self._systems)
         for owner, description in plugins_below(world, model):
             systems.add(library(description.filename))
-            self._unknown.report(description)
             self._step.need(rate_of(description))
             if self._add(description, owner, model, namespace):
                 with_plugin.add(owner)
@@ -73,7 +73,7 @@ class GazeboPlugins:
         leaving = [plugin for plugin in self._plugins if plugin.context.model == model]
         self._plugins = [plugin for plugin in self._plugins if plugin.context.model != model]
         for plugin in leaving:
-            plugin.close()
+            self._close(plugin)
 
     def reset(self) -> None:
         """Reset all plugins after a world reset."""
@@ -110,8 +110,15 @@ class GazeboPlugins:
 
     def _add(self, description: Any, owner: int, model: int, namespace: str | None) -> bool:
         """Create a plugin; return whether its owner is published by it."""
-        kind = PLUGINS.get(library(description.filename))
-        if kind is None or (self._bridge is None and not kind.acts_without_ros):
+        try:
+            kind = plugin_class(description.filename)
+        except OwnPluginError as error:
+            self._left_out(f"{Parameters(description).title}: {error}")
+            return False
+        if kind is None:
+            self._unknown.report(description)
+            return False
+        if self._bridge is None and not kind.acts_without_ros:
             return False
         if kind.of_world != (owner == _WORLD):
             place = "in the <world>, not in a <model>" if kind.of_world else "in a <model>, not in the <world>"
@@ -152,6 +159,21 @@ class GazeboPlugins:
             try:
                 getattr(plugin, phase)()
             except Exception as error:  # an error of one plugin must not end the others
-                write_line(sys.stderr, f"error: {plugin.parameters.title} failed in {phase} and is disabled: {error}")
-                self._plugins.remove(plugin)
-                plugin.close()
+                self._disable(plugin, "a physics substep" if isinstance(error, FailedInSubstepError) else phase, error)
+
+    def _disable(self, plugin: Plugin, phase: str, error: Exception) -> None:
+        """Report a plugin with its model, and the line that failed, and call it no more."""
+        model = plugin.context.model
+        of = "" if model == _WORLD else f" of {self._simulation.world.path(model)}"
+        last = traceback.extract_tb(error.__traceback__)[-1]
+        place = "" if isinstance(error, FailedInSubstepError) else f" ({last.filename}:{last.lineno})"
+        text = f"{plugin.parameters.title}{of} failed in {phase}{place} and is disabled: {error}"
+        write_line(sys.stderr, f"error: {text}")
+        self._plugins.remove(plugin)
+        self._close(plugin)
+
+    def _close(self, plugin: Plugin) -> None:
+        try:
+            plugin.close()
+        except Exception as error:  # as in _each
+            write_line(sys.stderr, f"error: {plugin.parameters.title} failed in close: {error}")

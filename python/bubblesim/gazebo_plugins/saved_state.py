@@ -22,9 +22,9 @@ class _NotSavedError(Exception):
     pass
 
 
-def collected(value: Any, seen: set[int] | None = None) -> Any:
-    """Return what JSON can hold of an object's attributes."""
-    return _collect(value, set() if seen is None else seen)
+def collected(value: Any) -> Any:
+    """Return what JSON can hold of the attributes of a plugin, ours or the user's."""
+    return _attributes(value, {id(value)})
 
 
 def _collect(value: Any, seen: set[int]) -> Any:
@@ -44,6 +44,10 @@ def _collect(value: Any, seen: set[int]) -> Any:
     if not _is_ours(value) or id(value) in seen:
         raise _NotSavedError
     seen.add(id(value))
+    return _attributes(value, seen)
+
+
+def _attributes(value: Any, seen: set[int]) -> dict[str, Any]:
     attributes = {}
     for name, item in vars(value).items():
         try:
@@ -82,9 +86,9 @@ def restored(saved: Any, present: Any) -> Any:
 
 def _restored_object(saved: dict[str, Any], present: Any) -> Any:
     module, name = saved["object"].split(":")
-    if not module.startswith(_OURS):
-        raise ValueError(f"the saved state has an object of the module {module}, which is not of this package")
     if f"{type(present).__module__}:{type(present).__qualname__}" != saved["object"]:
+        if not module.startswith(_OURS):
+            raise ValueError(f"the saved state has an object of the module {module}, which is not of this package")
         kind: Any = importlib.import_module(module)
         for part in name.split("."):
             kind = getattr(kind, part)

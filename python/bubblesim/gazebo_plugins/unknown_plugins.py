@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from bubblesim.gazebo_plugins.parameters import where
-from bubblesim.gazebo_plugins.registry import NOT_NEEDED, PLUGINS, library, why_unknown
+from bubblesim.gazebo_plugins.registry import NOT_NEEDED, library, why_unknown
 from bubblesim.program.output import write_line
 
 
@@ -25,9 +25,9 @@ class UnknownPlugins:
         return len(self._warned)
 
     def report(self, plugin: Any) -> None:
-        """Warn about a plugin that is not supported and has an effect in Gazebo."""
+        """Warn about a plugin that is not supported, if it has an effect in Gazebo."""
         name = library(plugin.filename)
-        if name not in PLUGINS and name not in NOT_NEEDED:
+        if name not in NOT_NEEDED:
             self.warn(plugin, f"plugin '{plugin.name}' ({plugin.filename}): {why_unknown(name)}")
 
     def warn(self, plugin: Any, text: str) -> None:

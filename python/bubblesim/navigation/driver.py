@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from bubblesim.controllers.planar_motion import Velocity
 
 STANDING = Velocity(0.0, 0.0)
-ALIGNED = 0.1  # rad
 
 
 @dataclass(frozen=True)
@@ -21,11 +20,12 @@ class Driver:
     turning_radius: float = 0.0  # minimum; 0 for a robot that turns in place
     radius: float = 0.3  # of the robot
     tolerance: float = 0.1  # distance at which the goal is reached
+    yaw_tolerance: float = 0.1  # rad, of the heading at the goal
 
 
 def turn(angle: float, driver: Driver) -> Velocity:
     """Return a turn in place by an angle; STANDING if it is small, or if the robot cannot turn in place."""
-    return STANDING if driver.turning_radius > 0.0 or abs(angle) < ALIGNED else turn_towards(angle, driver)
+    return STANDING if driver.turning_radius > 0.0 or abs(angle) < driver.yaw_tolerance else turn_towards(angle, driver)
 
 
 def turn_towards(angle: float, driver: Driver) -> Velocity:

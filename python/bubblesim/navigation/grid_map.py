@@ -2,6 +2,7 @@
 """A map of the plane as a grid of cells, like nav_msgs/OccupancyGrid."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -73,6 +74,18 @@ class GridMap:
         open_space = np.where(self.occupied, 0, 255).astype(np.uint8)
         distances: npt.NDArray[np.float32] = cv2.distanceTransform(open_space, cv2.DIST_L2, 5)
         return distances * np.float32(self.resolution)
+
+    def around(self, points: Sequence[Point], margin: float) -> "GridMap":
+        """Return the part of the map that has all cells nearer to the points than a margin, m."""
+        cells = np.array([self.cell_of(point) for point in points])
+        reach = math.ceil(margin / self.resolution) + 1
+        top, left = np.clip(cells.min(axis=0) - reach, 0, None).tolist()
+        bottom, right = np.clip(cells.max(axis=0) + reach + 1, 0, None).tolist()
+        x, y, heading = self.origin
+        along, up = left * self.resolution, top * self.resolution
+        cosine, sine = math.cos(heading), math.sin(heading)
+        origin = x + cosine * along - sine * up, y + sine * along + cosine * up, heading
+        return replace(self, cells=self.cells[top:bottom, left:right], origin=origin)
 
     def with_obstacles(self, points: list[Point]) -> "GridMap":
         """Return a copy with occupied cells at the points."""

@@ -34,8 +34,11 @@ def passable(grid: GridMap, footprint: Footprint) -> npt.NDArray[np.bool_]:
 
 def is_clear(grid: GridMap, path: list[Point], footprint: Footprint) -> bool:
     """Return whether a robot can be at all points of a path."""
-    may_pass = passable(grid, footprint)
-    return all(grid.has(cell) and may_pass[cell] for cell in map(grid.cell_of, path))
+    if not path:
+        return True
+    part = grid.around(path, footprint.radius)
+    may_pass = passable(part, footprint)
+    return all(part.has(cell) and may_pass[cell] for cell in map(part.cell_of, path))
 
 
 def plan(grid: GridMap, start: Point, goal: Point, footprint: Footprint) -> list[Point]:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import math
+
 from bubblesim._core import read_imu
 from bubblesim._core.reading_messages import imu, imu_of_values
 from bubblesim.gazebo_plugins.plugin import Plugin, PluginContext
@@ -10,7 +12,10 @@ from bubblesim.gazebo_plugins.rate import Rate
 from bubblesim.gazebo_plugins.sensors.noise import Noise
 from bubblesim.gazebo_plugins.sensors.readings import NewReadings
 from bubblesim.geometry.frames import into
+from bubblesim.geometry.poses import axis_angle
 from bubblesim.geometry.rotations import product, quaternion_of_rpy
+
+_LONGEST = 1.0  # s between messages over which a turn is divided
 
 
 class ImuSensor(Plugin):
@@ -86,16 +91,23 @@ class LinkImu(Plugin):
             return
         pose = self.world.pose(self._link)
         pose[3:] = product(self._turn, pose[3:])
-        _, angular = self.world.velocity(self._link)
         force = [a - g for a, g in zip(self.world.acceleration(self._link), self.world.gravity, strict=True)]
         noises = self.noises
-        values = pose[3:], noises[0].on(into(pose, angular)), noises[1].on(into(pose, force))
+        values = pose[3:], noises[0].on(self.rate_of_turn(pose)), noises[1].on(into(pose, force))
         variances = (noise.variances(3) for noise in noises)
         self.bridge.publish(self._publisher, imu_of_values(self.header(self._frame), *values, *variances))
 
+    def rate_of_turn(self, pose: list[float]) -> list[float]:
+        """Return the angular velocity in the axes of a pose of the link, rad/s."""
+        _, angular = self.world.velocity(self._link)
+        return list(into(pose, angular))
+
 
 class HectorImu(LinkImu):
-    """hector_gazebo_plugins' gazebo_ros_imu; offsets, drifts and the noise of the heading are ignored."""
+    """hector_gazebo_plugins' gazebo_ros_imu; offsets, drifts and the noise of the heading are ignored.
+
+    As there, the angular velocity is the turn since the last message: a robot that a program turns measures it.
+    """
 
     frame_parameter = "frameId"
     default_topic = "imu"
@@ -109,6 +121,24 @@ class HectorImu(LinkImu):
         self.parameters.ignore("biasTopicName", "headingGaussianNoise", "yawGaussianNoise")
         self.noises = self._noise("rateGaussianNoise"), self._noise("accelGaussianNoise")
         self.parameters.check()
+        self._before: list[float] = []  # orientation of the last message
+        self._last_time = -math.inf  # s
+
+    def reset(self) -> None:
+        """Forget the last message, too."""
+        super().reset()
+        self._last_time = -math.inf
+
+    def rate_of_turn(self, pose: list[float]) -> list[float]:
+        """Return the mean since the last message; without one in the last second, the present angular velocity."""
+        time = self.simulation.state_time
+        step = time - self._last_time
+        before, self._before, self._last_time = self._before, list(pose[3:]), time
+        if not 0.0 < step <= _LONGEST:
+            return super().rate_of_turn(pose)
+        back = [*(-part for part in before[:3]), before[3]]
+        axis, angle = axis_angle(product(back, pose[3:]))
+        return [part * angle / step for part in axis]
 
     def default_body(self) -> str:
         """Return the model's first link."""
