@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Names that no module has are marked in the editor while they are typed."""
+"""Names that no module has, and wrong calls, are marked in the editor while they are typed."""
 
 from pathlib import Path
 
 import pytest
 
 from bubblesim.web.script_files import check_text
-from bubblesim.web.script_names import unknown_names
+from bubblesim.web.script_names import warnings
 from ros_support import REPOSITORY
 
 
@@ -33,17 +33,53 @@ def test_a_misspelt_function_is_marked_with_the_right_name(tmp_path: Path, name:
     ],
 )
 def test_strings_comments_and_names_of_the_script_are_not_marked(text: str) -> None:
-    assert unknown_names(text, lua=False) == []
+    assert warnings(text, lua=False) == []
 
 
 def test_comments_of_lua_are_not_marked() -> None:
-    assert unknown_names("--[[ sim.nothing\n]] -- sim.nothing\nx = [[sim.nothing]] .. 'sim.nothing'\n", lua=True) == []
+    assert warnings("--[[ sim.nothing\n]] -- sim.nothing\nx = [[sim.nothing]] .. 'sim.nothing'\n", lua=True) == []
 
 
 def test_old_names_are_known() -> None:
-    assert unknown_names("sim.getObjectHandle('a')\n", lua=False) == []
+    assert warnings("sim.getObjectHandle('a')\n", lua=False) == []
 
 
 @pytest.mark.parametrize("script", sorted((REPOSITORY / "scenes").glob("*.py")), ids=lambda file: file.name)
-def test_the_scripts_of_the_scenes_have_no_unknown_names(script: Path) -> None:
-    assert unknown_names(script.read_text(), lua=False) == []
+def test_the_scripts_of_the_scenes_have_no_warnings(script: Path) -> None:
+    assert warnings(script.read_text(), lua=False) == []
+
+
+@pytest.mark.parametrize(
+    ("call", "reported"),
+    [
+        ("sim.setJointTargetVelocity(motor)", "(joint, velocity, motion): missing a required argument: 'velocity'"),
+        ("sim.setJointTargetVelocity(motor,\n  f(1, 2), {}, [], 3)", "too many positional arguments"),
+        ("sim.getObject()", "missing a required argument: 'path'"),
+        ("sim.getObject('/a, b', {}, 3)", "too many positional arguments"),
+    ],
+)
+def test_a_wrong_number_of_arguments_is_marked(call: str, reported: str) -> None:
+    (found,) = warnings(f"x = 1\n{call}\n", lua=False)
+    assert (found["line"], found["level"]) == (2, "warning")
+    assert reported in found["text"]
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        "sim.setJointTargetVelocity(*both)",
+        "sim.setJointTargetVelocity(motor, velocity=3)",
+        "sim.setJointTargetVelocity(motor, [1, 2, (3, 4)][0])",
+        "sim.setJointTargetVelocity(motor, ",
+        "sim.setObjectPosition(a, [1, 2, 3], b,)",
+        "sim.getObject('(,,,)')",
+    ],
+)
+def test_calls_that_may_be_right_are_not_marked(call: str) -> None:
+    assert warnings(call, lua=False) == []
+
+
+def test_calls_in_lua_may_have_more_arguments_and_end_with_several_values() -> None:
+    (found,) = warnings("sim.setJointTargetVelocity(motor)\n", lua=True)
+    assert "missing a required argument: 'velocity'" in found["text"]
+    assert warnings("sim.setJointTargetVelocity(pair())\nsim.getObject('a', {}, 3)\nsim.wait(...)\n", lua=True) == []

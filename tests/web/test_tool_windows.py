@@ -32,6 +32,30 @@ def test_cameras_are_live(tmp_path: Path) -> None:
         assert window.errors == []
 
 
+COUNT_READINGS = """(() => {
+  const { link } = bubblesim;
+  const call = link.call.bind(link);
+  window.spent = 0;
+  window.begin = performance.now();
+  link.call = async (name, ...rest) => {
+    const result = await call(name, ...rest);
+    if (name === "window.reading") window.spent += 1000 * result.duration;
+    return result;
+  };
+})()"""
+
+
+def test_pictures_of_cameras_take_a_tenth_of_the_time_of_the_simulator(tmp_path: Path) -> None:
+    with ToolsPage(tmp_path, "sensors") as window:
+        window.page.evaluate(COUNT_READINGS)
+        window.show("cameras")
+        window.wait_for("performance.now() - window.begin > 3000 && window.spent > 0")
+        assert (
+            window.page.evaluate("window.spent / (performance.now() - window.begin)") < 0.2
+        )  # one may just have ended
+        assert window.errors == []
+
+
 def test_a_script_in_lua_is_checked_while_it_is_typed(tmp_path: Path) -> None:
     script = write(tmp_path / "ball.lua", "function sysCall_init()\n    print('from Lua')\nend\n")
     with ToolsPage(tmp_path, "ball", "--child-script", f"/Ball={script}") as window:

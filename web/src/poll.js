@@ -10,7 +10,7 @@ export class Poll {
   #busy = false;
   #failed = false; // the last time
 
-  /// `period` in ms; `action` may be asynchronous. An error ends this turn only; the first one after a success is shown.
+  /// `period` in ms; `action` may be asynchronous, and return a longer pause until the next turn. An error ends this turn only; the first one after a success is shown.
   constructor(app, period, action) {
     this.#app = app;
     this.#period = period;
@@ -33,16 +33,17 @@ export class Poll {
     clearTimeout(this.#timer);
     if (this.#busy) return;
     this.#busy = true;
+    let pause = 0;
     try {
       if (this.#app.link.connected && !document.hidden) {
-        await this.#action();
+        pause = (await this.#action()) ?? 0;
         this.#failed = false;
       }
     } catch (error) {
       this.#report(error);
     } finally {
       this.#busy = false;
-      if (this.#on) this.#timer = setTimeout(() => this.now(), this.#period);
+      if (this.#on) this.#timer = setTimeout(() => this.now(), Math.max(this.#period, pause));
     }
   }
 

@@ -22,7 +22,7 @@ from bubblesim.scripting.host.callback_names import HOOKS
 from bubblesim.scripting.language.python_code import PythonCode
 from bubblesim.scripting.language.script_output import Source
 from bubblesim.scripting.language.source import ScriptSourceError, is_lua, read_text
-from bubblesim.web.script_names import unknown_names
+from bubblesim.web.script_names import warnings
 from bubblesim.web.threads import in_thread
 
 _CHECKED = "checked_script"  # name of the module that a script has during a check
@@ -62,10 +62,10 @@ async def check(page: Any, handle: int, text: str) -> list[dict[str, Any]]:
 def check_text(file: Path, text: str) -> list[dict[str, Any]]:
     """Return the errors of a string as a script's source; errors of included files are at line 1.
 
-    Without errors, return names that no module has, as warnings.
+    Without errors, return names that no module has, and calls with a wrong number of arguments, as warnings.
     """
     lua = is_lua(file, text)
-    return (_check_lua(text) if lua else _check_python(file, text)) or unknown_names(text, lua=lua)
+    return (_check_lua(text) if lua else _check_python(file, text)) or warnings(text, lua=lua)
 
 
 def _check_python(file: Path, text: str) -> list[dict[str, Any]]:

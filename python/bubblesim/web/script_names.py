@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Names in the text of a script that the modules of scripts do not have, such as sim.getObjectPositon."""
+"""What is doubtful in the text of a script: names that no module has, such as sim.getObjectPositon, and wrong calls."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import Any
 from bubblesim.scripting.api.functions import MODULES
 from bubblesim.scripting.api.missing_names import explain
 from bubblesim.scripting.api.old_names import present_name
+from bubblesim.web.script_calls import wrong_calls
 
 _STRINGS = r'"(?:\\.|[^"\\\n])*"|' + r"'(?:\\.|[^'\\\n])*'"
 _NO_CODE = {
@@ -20,11 +21,21 @@ _ASSIGNED = re.compile(r"(?<![\w.:])(\w+)\.(\w+)\s*=(?!=)")
 _OTHER_API = "sim-2"  # has objects in place of functions
 
 
-def unknown_names(text: str, *, lua: bool) -> list[dict[str, Any]]:
-    """Return ``line``, ``text`` and ``level`` of each name that no module has; a script may add names of its own."""
+def warnings(text: str, *, lua: bool) -> list[dict[str, Any]]:
+    """Return ``line``, ``text`` and ``level`` of unknown names, and of calls with too few or many arguments."""
     if _OTHER_API in text:
         return []
-    code = _NO_CODE[lua].sub(lambda found: re.sub(r"[^\n]", " ", found[0]), text)
+    code = _NO_CODE[lua].sub(lambda found: _blank(found[0]), text)
+    return sorted(_unknown_names(code) + wrong_calls(code, lua=lua), key=lambda problem: problem["line"])
+
+
+def _blank(text: str) -> str:
+    """Return a comment as blanks, and a string as one word, with the same lines."""
+    return re.sub(r"[^\n]", " " if text.startswith(("#", "--")) else "s", text)
+
+
+def _unknown_names(code: str) -> list[dict[str, Any]]:
+    """A script may add names of its own."""
     own = {found.groups() for found in _ASSIGNED.finditer(code)}
     problems = []
     for found in _NAME.finditer(code):

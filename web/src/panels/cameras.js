@@ -4,6 +4,7 @@ import { h } from "../dom.js";
 import { Poll } from "../poll.js";
 
 const PERIOD = 120; // ms between two images
+const SHARE = 0.1; // of the simulator's time, for images that nobody else asked for
 
 /// Colours of depths from near (yellow) to far (violet); black beyond.
 export function paintDepth(depths, near, far, pixels) {
@@ -58,13 +59,14 @@ class Picture {
     this.note.textContent = ` ${width} × ${height}, playback at ${time.toFixed(2)} s`;
   }
 
+  /// Returns the time, s, that the simulator took for it.
   async refresh() {
     if (this.app.playback.run) {
       this.#replay(this.app.playback);
-      return;
+      return 0;
     }
     const reading = await this.app.link.call("window.reading", [this.object.handle], "cameras");
-    if (reading.time === this.time) return;
+    if (reading.time === this.time) return reading.duration;
     this.time = reading.time;
     const { width, height } = this.object.parameters;
     if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
@@ -78,6 +80,7 @@ class Picture {
     }
     context.putImageData(image, 0, 0);
     this.note.textContent = ` ${width} × ${height}, ${reading.time.toFixed(2)} s`;
+    return reading.duration;
   }
 }
 
@@ -98,7 +101,9 @@ export const cameras = {
     app.scene.on("changed", list);
     list();
     this.poll = new Poll(app, PERIOD, async () => {
-      for (const each of pictures) await each.refresh();
+      let duration = 0;
+      for (const each of pictures) duration += await each.refresh();
+      return (1000 * duration) / SHARE;
     });
     return h("div.cameras", area);
   },

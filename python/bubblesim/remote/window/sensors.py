@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -32,9 +33,11 @@ def _fields(record: Any) -> dict[str, Any]:
 
 
 def reading(window: Window, sensor: int) -> dict[str, Any]:
-    """Return the last reading of a sensor: its fields, large arrays as bytes."""
+    """Return the last reading of a sensor, large arrays as bytes, and the ``duration`` of the measurement, s, for which
+    the simulation waited."""
+    begin = perf_counter()
     time, value = read_sensor(window.simulation, sensor)
-    return {"type": type(value).__name__, "time": time, **_fields(value)}
+    return {"type": type(value).__name__, "time": time, "duration": perf_counter() - begin, **_fields(value)}
 
 
 FUNCTIONS: tuple[Callable[..., Any], ...] = (reading,)

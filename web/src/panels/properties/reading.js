@@ -28,7 +28,7 @@ export function readingSection(app, sensor) {
 function rows(reading) {
   const shown = [["time", `${shortNumber(reading.time, 2)} s`]];
   for (const [name, value] of Object.entries(reading)) {
-    if (["type", "time", "rgb", "depth", "ranges", "intensities"].includes(name)) continue;
+    if (["type", "time", "duration", "rgb", "depth", "ranges", "intensities"].includes(name)) continue;
     if (name === "contacts") {
       shown.push(["contacts", value.length]);
       for (const contact of value.slice(0, 6)) shown.push([contact.collision, `${numbers(contact.force, 2)} N`]);
