@@ -7,6 +7,7 @@ import re
 import socket
 import struct
 import subprocess
+import time
 import xmlrpc.client
 from collections.abc import Iterator
 from pathlib import Path
@@ -228,6 +229,30 @@ def nested(depth: int) -> str:
 
 def test_arrays_nested_100000_deep_are_refused(node: Node) -> None:
     assert b"100 deep" in node.call("getPid", nested(100_000))
+
+
+UNREADABLE = {
+    "deep": "<value><array><data>" * 200_000,
+    "values without their end": "<value><array><data>" + "<value><i4>1</i4>" * 200_000,
+    "members without a name": "<value><struct>" + "<member><value>1</value></member>" * 100_000,
+    "names without their end": "<value><struct>" + "<member><name>a<value>1</value></member>" * 100_000,
+}
+
+
+@pytest.mark.parametrize("kind", UNREADABLE)
+def test_values_that_cannot_be_read_take_no_longer_than_others_of_their_size(node: Node, kind: str) -> None:
+    def took(value: str) -> float:
+        """Return the least of some times, because the machine may be busy."""
+        times = []
+        for _ in range(5):
+            begin = time.monotonic()
+            node.call("getPid", value)
+            times.append(time.monotonic() - begin)
+        return min(times)
+
+    assert b"cannot be read" in node.call("getPid", UNREADABLE[kind])
+    readable = "<value><i4>1</i4></value>" * (len(UNREADABLE[kind]) // 25)
+    assert took(UNREADABLE[kind]) < 3 * took(f"<value><array><data>{readable}</data></array></value>")
 
 
 def test_closing_tags_in_names_do_not_hide_the_depth(node: Node) -> None:

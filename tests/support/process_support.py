@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the kernel knows of a process."""
 
+import contextlib
 from pathlib import Path
 
 
@@ -13,3 +14,14 @@ def status(pid: int, name: str) -> int:
     """Return a number of its status, such as VmRSS (KiB) or Threads."""
     lines = Path(f"/proc/{pid}/status").read_text().splitlines()
     return next(int(line.split()[1]) for line in lines if line.startswith(f"{name}:"))
+
+
+def listening_ports(pid: int) -> list[int]:
+    """Return the TCP ports on which a process listens."""
+    own = set()
+    for each in Path(f"/proc/{pid}/fd").iterdir():
+        with contextlib.suppress(FileNotFoundError):  # closed meanwhile
+            own.add(str(each.readlink()))
+    tables = (Path(f"/proc/{pid}/net/{name}").read_text().splitlines()[1:] for name in ("tcp", "tcp6"))
+    sockets = [row for table in tables for line in table if (row := line.split())[3] == "0A"]  # LISTEN
+    return [int(row[1].rpartition(":")[2], 16) for row in sockets if f"socket:[{row[9]}]" in own]
