@@ -44,12 +44,6 @@ auto* replaced_find_tag() {
   return function;
 }
 
-auto* replaced_parse_tag() {
-  static auto* const function = replaced<std::string(const char*, const std::string&, int*)>(
-      "_ZN6XmlRpc10XmlRpcUtil8parseTagEPKcRKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEEPi");
-  return function;
-}
-
 auto* replaced_execute_method() {
   static auto* const function = replaced<bool(XmlRpcServerConnection*, const std::string&, XmlRpcValue&, XmlRpcValue&)>(
       "_ZN6XmlRpc22XmlRpcServerConnection13executeMethodERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEERNS_"
@@ -122,7 +116,6 @@ bool lengths_fit(const std::uint8_t* buffer, std::uint32_t size) {
 void check_peer_limits() {
   replaced_from_xml();
   replaced_find_tag();
-  replaced_parse_tag();
   replaced_execute_method();
   replaced_parse();
 }
@@ -169,13 +162,6 @@ bool XmlRpc::XmlRpcUtil::findTag(const char* tag, const std::string& xml, int* o
   const bool is_found = bubblesim::replaced_find_tag()(tag, xml, offset);
   if (!is_found && bubblesim::depth > 0) throw bubblesim::Unreadable{};
   return is_found;
-}
-
-std::string XmlRpc::XmlRpcUtil::parseTag(const char* tag, const std::string& xml, int* offset) {
-  const int start = *offset;
-  std::string text = bubblesim::replaced_parse_tag()(tag, xml, offset);
-  if (*offset == start && bubblesim::depth > 0) throw bubblesim::Unreadable{};
-  return text;
 }
 
 bool XmlRpc::XmlRpcServerConnection::executeMethod(const std::string& methodName, XmlRpcValue& params,
