@@ -20,6 +20,9 @@ SLACK = 2.0
 """Seconds that a busy machine may take for the calls between two measurements."""
 
 
+pytestmark = pytest.mark.skipif("LD_PRELOAD" in os.environ, reason="a sanitizer must be the first library to load")
+
+
 class SetClock:
     """A wall clock of the programs in its environment, which a file sets."""
 
