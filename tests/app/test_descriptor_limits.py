@@ -66,7 +66,7 @@ def test_more_clients_than_descriptors_keep_no_server_busy_and_no_other_port_fro
 
 
 @pytest.mark.parametrize("limit", [1024, MOST])
-def test_the_number_of_descriptors_delays_no_message(roscore: RosCore, tmp_path: Path, limit: int) -> None:
+def test_messages_come_whatever_the_limit_of_descriptors(roscore: RosCore, tmp_path: Path, limit: int) -> None:
     code = """
         def sysCall_init(): self.numbers = simROS.advertise('/numbers', 'std_msgs/Float32')
         def sysCall_sensing(): simROS.publish(self.numbers, {'data': 1.0})

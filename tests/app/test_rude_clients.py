@@ -17,7 +17,7 @@ from ros_support import DEADLINE, REPOSITORY, RosCore, start, stop
 SLOW = 200
 STEP = 0.05
 """Seconds of a simulation step, in which the child script answers: an answer may take one more by chance."""
-LINES = 60
+LINES = 120  # ten errors of the window's server, with where they arose, and those of a peer
 BEGUN = {
     "XML-RPC": b"POST /",
     "TCPROS": b"\x10\x00\x00\x00\x0c",

@@ -234,7 +234,7 @@ def test_arrays_nested_100000_deep_are_refused(node: Node) -> None:
 UNREADABLE = {
     "deep": "<value><array><data>" * 200_000,
     "deep and long": "<value><array><data>" * 99 + "<value>" + "x" * 4_000_000,
-    "texts without their end": "<value><array><data>" + "<value>a" * 20_000,
+    "strings without their end": "<value><array><data>" + "<value>a" * 20_000,
 }
 
 
