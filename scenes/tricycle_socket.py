@@ -8,7 +8,8 @@ import socket
 ADDRESS = ('127.0.0.1', 5000)
 MOST_CLIENTS = 32
 LONGEST_LINE = 200  # bytes; a command has about twenty
-MOST_IN_A_PASS = 1024  # bytes per client and simulation step
+MOST_BYTES = 1024  # per client and simulation step
+MOST_NEW = 1000  # clients per simulation step
 
 
 def sysCall_init():
@@ -25,17 +26,9 @@ def sysCall_init():
 
 
 def sysCall_actuation():
-    accept_clients()
     for client in self.clients:
-        for line in client.lines():
-            try:
-                steering, speed = parse_command(line)
-            except ValueError as error:
-                client.answers.append(f'error: {error}')
-                continue
-            sim.setJointTargetPosition(self.steering, steering)
-            sim.setJointTargetVelocity(self.motor, speed)
-            client.answers.append(None)
+        obey(client)
+    accept_clients()
 
 
 def sysCall_sensing():
@@ -54,16 +47,39 @@ def sysCall_cleanup():
 
 
 def accept_clients():
-    while True:
+    for _ in range(MOST_NEW):
         try:
             connection, _ = self.server.accept()
         except OSError:  # no client is waiting, or it has disconnected
             return
         client = Client(connection)
-        if len(self.clients) < MOST_CLIENTS:
+        obey(client)
+        self.clients = [other for other in self.clients if other.connected]
+        if len(self.clients) == MOST_CLIENTS:
+            refuse_one(client)
+        if client.connected:
             self.clients.append(client)
-        else:
-            client.refuse(f'{MOST_CLIENTS} clients are connected already')
+
+
+def refuse_one(new):
+    """Make room: refuse the oldest client that has never sent a command, or the new one."""
+    idle = [client for client in self.clients if not client.has_commanded]
+    (idle or [new])[0].refuse(f'{MOST_CLIENTS} clients are connected already')
+    self.clients = [client for client in self.clients if client.connected]
+
+
+def obey(client):
+    """Follow the commands that a client has sent since the last step."""
+    for line in client.lines():
+        try:
+            steering, speed = parse_command(line)
+        except ValueError as error:
+            client.answers.append(f'error: {error}')
+            continue
+        sim.setJointTargetPosition(self.steering, steering)
+        sim.setJointTargetVelocity(self.motor, speed)
+        client.has_commanded = True
+        client.answers.append(None)
 
 
 def parse_command(line):
@@ -91,6 +107,7 @@ class Client:
         self.answers = []  # to the lines of this step: an error, or None for the measurement
         self.rest = b''  # incomplete line
         self.ends_lines = False  # has sent a newline
+        self.has_commanded = False
 
     def lines(self):
         """Return the received lines.
@@ -99,7 +116,7 @@ class Client:
         unchanged for a whole step counts as a line.
         """
         try:
-            arrived = self.connection.recv(MOST_IN_A_PASS)
+            arrived = self.connection.recv(MOST_BYTES)
         except BlockingIOError:
             lonely = b'' if self.ends_lines else self.rest
             if lonely:

@@ -1,17 +1,55 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "state_files.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <string>
-#include <system_error>
+#include <string_view>
 
 #include "bubblesim/error.hpp"
 
 namespace bubblesim::app {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& file, int error) {
+  throw std::runtime_error(file.string() + ": cannot write the state: " + std::strerror(error));
+}
+
+bool write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+/// Writes a file that is not there, or sets errno and leaves none: in a folder of everybody, what has its name may be a
+/// link to another file of this user.
+bool write_new_file(const std::filesystem::path& file, std::string_view text) {
+  constexpr mode_t kAsOthers = 0666;  // less the umask, as any file that the user names
+  ::unlink(file.c_str());
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kAsOthers);
+  if (descriptor < 0) return false;
+  const bool is_written = write_all(descriptor, text);
+  int error = errno;
+  const bool is_closed = ::close(descriptor) == 0;
+  if (is_written && is_closed) return true;
+  if (is_written) error = errno;
+  ::unlink(file.c_str());
+  errno = error;
+  return false;
+}
+
+}  // namespace
 
 void load_state(Simulation& simulation, const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -27,15 +65,12 @@ void load_state(Simulation& simulation, const std::filesystem::path& file) {
 void save_state(Simulation& simulation, const std::filesystem::path& file) {
   const std::string state = simulation.save();
   std::filesystem::path part = file;
-  part += ".part";
-  std::ofstream out(part, std::ios::binary);
-  out << state;
-  out.close();
-  std::error_code failed;
-  if (out) std::filesystem::rename(part, file, failed);
-  if (out && !failed) return;
-  const std::string why = failed ? failed.message() : std::strerror(errno);
-  throw std::runtime_error(file.string() + ": cannot write the state: " + why);
+  part += "." + std::to_string(::getpid()) + ".part";
+  if (!write_new_file(part, state)) fail(file, errno);
+  if (std::rename(part.c_str(), file.c_str()) == 0) return;
+  const int error = errno;
+  ::unlink(part.c_str());
+  fail(file, error);
 }
 
 }  // namespace bubblesim::app

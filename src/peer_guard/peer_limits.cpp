@@ -8,6 +8,7 @@
 #include <xmlrpcpp/XmlRpcException.h>
 #include <xmlrpcpp/XmlRpcServerConnection.h>
 #include <xmlrpcpp/XmlRpcSocket.h>
+#include <xmlrpcpp/XmlRpcUtil.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include <array>
@@ -37,6 +38,12 @@ auto* replaced_from_xml() {
   return function;
 }
 
+auto* replaced_find_tag() {
+  static auto* const function = replaced<bool(const char*, const std::string&, int*)>(
+      "_ZN6XmlRpc10XmlRpcUtil7findTagEPKcRKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEEPi");
+  return function;
+}
+
 auto* replaced_execute_method() {
   static auto* const function = replaced<bool(XmlRpcServerConnection*, const std::string&, XmlRpcValue&, XmlRpcValue&)>(
       "_ZN6XmlRpc22XmlRpcServerConnection13executeMethodERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEERNS_"
@@ -50,8 +57,11 @@ auto* replaced_parse() {
   return function;
 }
 
+/// Leaves all values of a parameter at once. xmlrpcpp itself goes on after a missing tag, and looks for the next one up
+/// to the end of the request: for each of a million values, or at each level.
+struct Unreadable {};
+
 thread_local int depth = 0;
-thread_local bool too_deep = false;
 
 class OneDeeper {
  public:
@@ -105,6 +115,7 @@ bool lengths_fit(const std::uint8_t* buffer, std::uint32_t size) {
 
 void check_peer_limits() {
   replaced_from_xml();
+  replaced_find_tag();
   replaced_execute_method();
   replaced_parse();
 }
@@ -133,16 +144,24 @@ bool XmlRpc::XmlRpcSocket::nbRead(int socket, std::string& s, bool* eof) {
 
 bool XmlRpc::XmlRpcValue::fromXml(const std::string& valueXml, int* offset) {
   using namespace bubblesim;
-  if (depth == 0) too_deep = false;
-  if (depth == kDeepestXmlRpc) too_deep = true;
-  if (too_deep) return false;
-  const OneDeeper deeper;
+  if (depth == kDeepestXmlRpc) throw Unreadable{};
   const int start = *offset;
-  const bool is_read = replaced_from_xml()(this, valueXml, offset);
-  if (!too_deep) return is_read;
-  clear();
-  *offset = start;
-  return false;
+  const bool is_outermost = depth == 0;
+  const OneDeeper deeper;
+  if (!is_outermost) return replaced_from_xml()(this, valueXml, offset);
+  try {
+    return replaced_from_xml()(this, valueXml, offset);
+  } catch (const Unreadable&) {
+    clear();
+    *offset = start;
+    return false;
+  }
+}
+
+bool XmlRpc::XmlRpcUtil::findTag(const char* tag, const std::string& xml, int* offset) {
+  const bool is_found = bubblesim::replaced_find_tag()(tag, xml, offset);
+  if (!is_found && bubblesim::depth > 0) throw bubblesim::Unreadable{};
+  return is_found;
 }
 
 bool XmlRpc::XmlRpcServerConnection::executeMethod(const std::string& methodName, XmlRpcValue& params,

@@ -35,7 +35,8 @@ def test_a_signal_at_any_time_ends_it(roscore: RosCore, tmp_path: Path, phases: 
             code = node.end(number)
             took = time.monotonic() - begin
         report = f"phase {phase} of {phases}, {start:.2f} s: {node.output}"
-        assert took < start + LIMIT + SLACK, report  # it ends when Python has started
+        # It ends when Python has started, which may take twice as long as at first.
+        assert took < 2 * start + LIMIT + SLACK, report
         assert code in {0, -number}, report
         assert code == 0 or node.output == "", report  # it ends as other programs do before it has anything to end
         assert node.output.count("init") == node.output.count("cleanup"), report

@@ -20,6 +20,7 @@ inline void require(bool holds, const char* promise) {
 
 void read_cbor(std::string_view data);      ///< a request of a remote client
 void read_material(std::string_view data);  ///< an OGRE material script
+void read_mesh(std::string_view data);      ///< the arrays of a mesh, see mesh.cpp
 void read_message(std::string_view data);   ///< two bytes that choose a type, then a message in its layout
 void read_picture(std::string_view data);   ///< png, jpg, bmp, tga, gif, psd, pnm
 void read_scene(std::string_view data);     ///< SDFormat or URDF

@@ -24,7 +24,7 @@ def test_help_lists_the_targets_that_have_seeds() -> None:
 @pytest.mark.parametrize(
     ("arguments", "error"),
     [
-        (["nothing"], "[fuzz] no target 'nothing'; there are: cbor material message"),
+        (["nothing"], "[fuzz] no target 'nothing'; there are: cbor material mesh message"),
         ([], "[fuzz] no target ''; there are: "),
         (["cbor", "--seconds", "soon"], "[fuzz] --seconds needs a number above 0, found 'soon'"),
         (["cbor", "--fast"], "[fuzz] unknown option '--fast', see scripts/fuzz --help"),

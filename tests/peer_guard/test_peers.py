@@ -7,6 +7,7 @@ import re
 import socket
 import struct
 import subprocess
+import time
 import xmlrpc.client
 from collections.abc import Iterator
 from pathlib import Path
@@ -228,6 +229,29 @@ def nested(depth: int) -> str:
 
 def test_arrays_nested_100000_deep_are_refused(node: Node) -> None:
     assert b"100 deep" in node.call("getPid", nested(100_000))
+
+
+UNREADABLE = {
+    "deep": "<value><array><data>" * 200_000,
+    "deep and long": "<value><array><data>" * 99 + "<value>" + "x" * 4_000_000,
+    "strings without their end": "<value><array><data>" + "<value>a" * 20_000,
+}
+
+
+@pytest.mark.parametrize("kind", UNREADABLE)
+def test_values_that_cannot_be_read_take_no_longer_than_others_of_their_size(node: Node, kind: str) -> None:
+    def took(value: str) -> float:
+        """Return the least of some times, because the machine may be busy."""
+        times = []
+        for _ in range(5):
+            begin = time.monotonic()
+            node.call("getPid", value)
+            times.append(time.monotonic() - begin)
+        return min(times)
+
+    assert b"cannot be read" in node.call("getPid", UNREADABLE[kind])
+    readable = "<value><i4>1</i4></value>" * (len(UNREADABLE[kind]) // 25)
+    assert took(UNREADABLE[kind]) < 3 * took(f"<value><array><data>{readable}</data></array></value>")
 
 
 def test_closing_tags_in_names_do_not_hide_the_depth(node: Node) -> None:

@@ -13,20 +13,11 @@ import pytest
 
 import bubblesim
 from node_support import Node, run_sim
+from process_support import listening_ports
 from remote_support import RemoteNode, refusal
 from ros_support import free_port, ros_environment
 
 WANTS = "this node wants a token"
-
-
-def listening_ports(pid: int) -> list[int]:
-    """Return the TCP ports on which a process listens."""
-    own = {str(each.readlink()) for each in Path(f"/proc/{pid}/fd").iterdir()}
-    table = [
-        line.split() for name in ("tcp", "tcp6") for line in Path(f"/proc/{pid}/net/{name}").read_text().split("\n")
-    ]
-    sockets = [row for row in table[1:] if len(row) > 9 and row[3] == "0A"]  # LISTEN
-    return [int(row[1].rpartition(":")[2], 16) for row in sockets if f"socket:[{row[9]}]" in own]
 
 
 @pytest.fixture

@@ -30,10 +30,17 @@ def clean_environment(**changes: str) -> dict[str, str]:
 
 
 def run_sim(
-    *arguments: object, env: Mapping[str, str] | None = None, timeout: float = 3 * DEADLINE, prefixed: bool = False
+    *arguments: object,
+    env: Mapping[str, str] | None = None,
+    timeout: float = 3 * DEADLINE,
+    prefixed: bool = False,
+    within: Sequence[str] = (),
 ) -> "subprocess.CompletedProcess[str]":
-    """Run the node until it ends by itself. Lines printed by scripts keep their prefix only if `prefixed`."""
-    command = [str(built("sim")), *map(str, arguments)]
+    """Run the node until it ends by itself. Lines printed by scripts keep their prefix only if `prefixed`.
+
+    ``within``: a program that runs the command which follows its arguments.
+    """
+    command = [*within, str(built("sim")), *map(str, arguments)]
     run = subprocess.run(command, env=env, capture_output=True, text=True, timeout=timeout, check=False)
     if not prefixed:
         run.stdout = PREFIX.sub("", run.stdout)

@@ -7,6 +7,7 @@ a page that leads to the window, so that a browser can open it.
 
 from __future__ import annotations
 
+import errno
 import html
 import os
 import tempfile
@@ -31,6 +32,9 @@ def write_address(address: str, port: int) -> Path:
     """
     folder = _folder()
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    if folder.is_symlink() or folder.stat().st_uid != os.geteuid():  # who made it could put another page there
+        raise PermissionError(errno.EPERM, f"{folder} belongs to another user: the token is not written there")
+    folder.chmod(0o700)
     number, name = tempfile.mkstemp(dir=folder, prefix=".window-")  # its mode is 0600
     try:
         with os.fdopen(number, "w", encoding="utf-8") as stream:

@@ -2,9 +2,11 @@
 #include "meshes/finish_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "meshes/mesh_error.hpp"
 
@@ -24,6 +26,29 @@ bool has_area(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle) 
   return longest > 0 && a.cross(b).norm() > kMinSine * longest;
 }
 
+/// The program that reads mesh files may have been made to answer anything by one of them.
+void check_sizes(const TriangleMesh& mesh) {
+  const auto is_per_vertex = [&](std::size_t size) { return size == 0 || size == mesh.vertices.size(); };
+  const auto exists = [&](std::size_t material) { return material < mesh.materials.size(); };
+  const bool has_materials = !mesh.materials.empty() || !mesh.material_of.empty();
+  if (!is_per_vertex(mesh.normals.size()) || !is_per_vertex(mesh.texture_coordinates.size())) {
+    throw MeshError("has normals or texture coordinates for some of its vertices only");
+  }
+  if (has_materials && (mesh.material_of.size() != mesh.triangles.size() ||
+                        !std::all_of(mesh.material_of.begin(), mesh.material_of.end(), exists))) {
+    throw MeshError("has a triangle with a material that does not exist");
+  }
+}
+
+/// Puts what is not finite at a corner of the texture, whose pixels are found by these numbers.
+void make_finite(std::vector<std::array<float, 2>>& coordinates) {
+  for (std::array<float, 2>& point : coordinates) {
+    for (float& number : point) {
+      if (!std::isfinite(number)) number = 0;
+    }
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const TriangleMesh> finish_mesh(TriangleMesh mesh) {
@@ -37,6 +62,8 @@ std::shared_ptr<const TriangleMesh> finish_mesh(TriangleMesh mesh) {
   if (!std::all_of(mesh.vertices.begin(), mesh.vertices.end(), usable)) {
     throw MeshError("has a vertex that is not finite or more than 1e5 m away: check its coordinates and scale");
   }
+  check_sizes(mesh);
+  make_finite(mesh.texture_coordinates);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const TriangleMesh::Triangle triangle = mesh.triangles[i];

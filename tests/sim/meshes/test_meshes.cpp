@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 #include "meshes.hpp"
 #include "meshes/convex_hull.hpp"
@@ -22,6 +24,31 @@ TEST(Surface, LosesTrianglesWithoutAnArea) {
   TriangleMesh mesh = box_triangles({1, 1, 1});
   mesh.triangles.push_back({0, 0, 1});
   EXPECT_EQ(finish_mesh(mesh)->triangles.size(), 12U);
+}
+
+TEST(Surface, WithArraysThatDoNotFitIsTurnedDown) {
+  const TriangleMesh whole = box_triangles({1, 1, 1});
+  const auto problem = [&](const auto& change) {
+    TriangleMesh mesh = whole;
+    change(mesh);
+    return mesh_problem([&] { finish_mesh(mesh); });
+  };
+  const std::string vertices = "for some of its vertices";
+  const std::string material = "a material that does not exist";
+  EXPECT_NE(problem([](TriangleMesh& mesh) { mesh.normals.resize(1); }).find(vertices), std::string::npos);
+  EXPECT_NE(problem([](TriangleMesh& mesh) { mesh.texture_coordinates.resize(1); }).find(vertices), std::string::npos);
+  EXPECT_NE(problem([](TriangleMesh& mesh) { mesh.materials.resize(1); }).find(material), std::string::npos);
+  EXPECT_NE(problem([](TriangleMesh& mesh) {
+              mesh.materials.resize(1);
+              mesh.material_of.assign(mesh.triangles.size(), 1);
+            }).find(material),
+            std::string::npos);
+}
+
+TEST(Surface, HasFinitePlacesOnItsTexture) {
+  TriangleMesh mesh = box_triangles({1, 1, 1});
+  mesh.texture_coordinates.assign(mesh.vertices.size(), {NAN, 0.5F});
+  EXPECT_EQ(finish_mesh(mesh)->texture_coordinates.front(), (std::array<float, 2>{0, 0.5F}));
 }
 
 TEST(Surface, WithNumbersThatAreNoneIsTurnedDown) {

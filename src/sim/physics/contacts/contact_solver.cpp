@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include "physics/ode/constraint_defaults.hpp"
 #include "physics/ode/ode_math.hpp"
@@ -290,8 +291,10 @@ void ContactSolver::push(const SolvedPair& pair, const SpatialVector& given, dou
 }
 
 void ContactSolver::solve(std::vector<FoundContact>& points, double step) {
-  std::stable_sort(island_.pairs.begin(), island_.pairs.end(),
-                   [](const SolvedPair& a, const SolvedPair& b) { return a.height < b.height; });
+  // In their order at equal heights; a stable sort would allocate memory.
+  std::sort(island_.pairs.begin(), island_.pairs.end(), [](const SolvedPair& a, const SolvedPair& b) {
+    return std::tie(a.height, a.begin, a.end) < std::tie(b.height, b.begin, b.end);
+  });
   double before = 0;
   for (int i = 0; i < kMostSweeps; ++i) {
     const Change change = sweep();

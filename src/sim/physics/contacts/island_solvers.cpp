@@ -2,6 +2,7 @@
 #include "physics/contacts/island_solvers.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <vector>
 
 #include "physics/ode/ode_math.hpp"
@@ -71,8 +72,10 @@ void IslandSolvers::solve_free_contacts(Substep& substep) {
     const int island = contacts.islands.of(pair.first->model);
     if (!contacts.islands.is_jointed(island)) pairs.push_back({island, &pair, lookup.pair(pair)});
   }
-  std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const FreePair& a, const FreePair& b) { return a.island < b.island; });
+  // By the order of the pairs within an island; a stable sort would allocate memory.
+  std::sort(pairs.begin(), pairs.end(), [](const FreePair& a, const FreePair& b) {
+    return std::tie(a.island, a.pair) < std::tie(b.island, b.pair);
+  });
   ContactSolver& solver = contact_solver_;
   const Vector3 up = -substep.gravity.normalized();
   for (std::size_t i = 0; i < pairs.size(); ++i) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <tuple>
 
 #include "physics/ode/constraint_defaults.hpp"
 #include "physics/ode/ode_math.hpp"
@@ -53,16 +54,20 @@ void TreeSolver::gather(Substep& substep) {
   pairs_.clear();
   for (const PlacedModel* model : substep.moving.awake) {
     const int island = contacts.islands.of(model->number);
-    if (contacts.islands.is_by_trees(island)) models_.push_back({island, model->trees.get()});
+    if (contacts.islands.is_by_trees(island)) models_.push_back({island, models_.size(), model->trees.get()});
   }
   ContactLookup lookup(contacts.memory);
   for (const FoundPair& pair : contacts.found.pairs) {
     const int island = contacts.islands.of(pair.first->model);
     if (contacts.islands.is_by_trees(island)) pairs_.push_back({island, &pair, lookup.pair(pair)});
   }
-  const auto by_island = [](const auto& a, const auto& b) { return a.island < b.island; };
-  std::stable_sort(models_.begin(), models_.end(), by_island);
-  std::stable_sort(pairs_.begin(), pairs_.end(), by_island);
+  // In their order within an island; a stable sort would allocate memory.
+  std::sort(models_.begin(), models_.end(), [](const IslandModel& a, const IslandModel& b) {
+    return std::tie(a.island, a.turn) < std::tie(b.island, b.turn);
+  });
+  std::sort(pairs_.begin(), pairs_.end(), [](const IslandPair& a, const IslandPair& b) {
+    return std::tie(a.island, a.pair) < std::tie(b.island, b.pair);
+  });
 }
 
 /// Solves the next island.

@@ -26,6 +26,7 @@ class TreeSolver {
   };
   struct IslandModel {
     int island = Islands::kNone;
+    std::size_t turn = 0;  // among the models that are awake
     TreeModel* model = nullptr;
   };
   struct PointRows {

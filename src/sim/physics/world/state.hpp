@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <limits>
 #include <map>
 #include <memory>
@@ -97,7 +96,7 @@ struct WorldState {
   IslandSolvers solvers;
   double bottom = 0;                  // m along gravity, lowest initial position of all models and static shapes
   double age = 0;                     // s since construction
-  std::deque<StateSample> history;    // of the last calls of advance()
+  std::vector<StateSample> history;   // of the last calls of advance()
   std::vector<ObjectId> lost_models;  // models that diverged
   bool diverged = false;
   bool interrupted = false;          // ODE threw in the middle of a step

@@ -140,16 +140,22 @@ void simulate(WorldState& state, const Wrenches& wrenches, double step) {
 
 /// Records the current states of the models that are awake, for the report of a divergence.
 void remember(WorldState& state, double duration) {
-  std::vector<LinkState> now;
+  std::vector<StateSample>& history = state.history;
+  if (history.size() < kRememberedSteps) {
+    history.emplace_back();
+  } else {
+    std::rotate(history.begin(), history.begin() + 1, history.end());  // keeps the memory of the oldest one
+  }
+  StateSample& now = history.back();
+  now.time = state.age;
+  now.links.clear();
   for (PlacedModel* model : state.moving.awake) {
     for (Link& link : model->links) {
       link.before = body_velocity(link.body.get());
-      now.push_back({link.object, body_pose(link.body.get()), link.before});
+      now.links.push_back({link.object, body_pose(link.body.get()), link.before});
     }
   }
   state.last_duration = duration;
-  if (state.history.size() == kRememberedSteps) state.history.pop_front();
-  state.history.push_back({state.age, std::move(now)});
 }
 
 }  // namespace
