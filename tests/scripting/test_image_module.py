@@ -102,3 +102,37 @@ def test_a_camera_gives_its_image_and_takes_another_one(tmp_path: Path) -> None:
     run = run_script(tmp_path, code, "--strict", scene="p3dx_floor", target="/PioneerP3DX")
     assert run.stderr == ""
     assert "seen" in run.stdout
+
+
+def test_hue_lightness_and_saturation_are_those_of_colorsys(tmp_path: Path) -> None:
+    body = """
+import colorsys
+colours = [(255, 0, 0), (0, 255, 0), (10, 40, 200), (128, 128, 128), (250, 240, 30), (0, 0, 0), (255, 255, 255)]
+image = simIM.createFromData(len(colours), 1, bytes(number for each in colours for number in each))
+hls = simIM.rgb2hls(image)
+back = simIM.hls2rgb(hls)
+for x, colour in enumerate(colours):
+    hue, lightness, saturation = colorsys.rgb_to_hls(*(number / 255 for number in colour))
+    wanted = [180 * hue, 255 * lightness, 255 * saturation]
+    assert all(abs(a - b) <= 0.5 for a, b in zip(simIM.get(hls, [x, 0]), wanted)), colour
+    assert all(abs(a - b) <= 5 for a, b in zip(simIM.get(back, [x, 0]), colour))  # a hue counts two degrees
+"""
+    check(tmp_path, body)
+
+
+def test_images_are_mirrored_repeated_weighed_and_masked(tmp_path: Path) -> None:
+    body = """
+image = simIM.createFromData(2, 1, bytes([1, 9]), simIM.fmt_8UC1)
+numbers = lambda image: list(simIM.data(image))
+assert numbers(simIM.flip(image, 1)) == [9, 1] and numbers(simIM.flip(image, 0)) == [1, 9]
+assert numbers(simIM.repeat(image, 2, 2)) == [1, 9, 1, 9] * 2
+assert numbers(simIM.addWeighted(image, image, 2, 3, 4)) == [9, 49]
+assert numbers(simIM.scaleAdd(image, 2, image)) == [3, 27]
+assert numbers(simIM.pow(image, 2)) == [1, 81] and numbers(simIM.sqrt(image)) == [1, 3]
+assert numbers(simIM.exp(image)) == [3, 255] and numbers(simIM.log(image)) == [0, 2]
+assert numbers(simIM.divideK(image, [2])) == [0, 4] and numbers(simIM.bitwiseAndK(image, [8])) == [0, 8]
+assert numbers(simIM.bitwiseOr(image, simIM.create(2, 1, simIM.fmt_8UC1, 2))) == [3, 11]
+assert numbers(simIM.bitwiseXor(image, image)) == [0, 0] and numbers(simIM.bitwiseNot(image)) == [254, 246]
+assert 'formats with integers' in refused(simIM.bitwiseNot, simIM.convert(image, simIM.fmt_32FC1))
+"""
+    check(tmp_path, body)

@@ -9,15 +9,16 @@ import numpy as np
 
 from bubblesim._core import camera_optics, override_image, read_camera
 from bubblesim.scripting.api.functions import script_module
-from bubblesim.scripting.api.image.drawing import DrawingFunctions
-from bubblesim.scripting.api.kinds import Bytes, Handle, Integers, Numbers
+from bubblesim.scripting.api.image.arithmetic import ArithmeticFunctions
+from bubblesim.scripting.api.image.hls import hls_of_rgb, rgb_of_hls
+from bubblesim.scripting.api.kinds import Bytes, Handle, Integers
 
 _SELF = -4
 _MOST_PIXELS = 1 << 26
 
 
 @script_module("simIM")
-class SimIm(DrawingFunctions):
+class SimIm(ArithmeticFunctions):
     """Images by handle, with numbers from 0 to 255, or any in formats with 32 bits; x counts from the left, y from the
     top. Operations return a new image, or with ``in_place`` change their first one and return it. Images end with their
     script. Points and colours are tables, or single numbers as in older versions."""
@@ -146,6 +147,26 @@ class SimIm(DrawingFunctions):
         """Convert hue, saturation and value to colours."""
         return self._result(image, self._in_mode(image, "HSV", "RGB", 255 / 180), in_place)
 
+    def rgb2hls(self, image: int, in_place: bool = False) -> int:
+        """Convert colours to hue (0 to 180, two degrees each), lightness and saturation (0 to 255)."""
+        return self._result(image, hls_of_rgb(self._at(image)), in_place)
+
+    def hls2rgb(self, image: int, in_place: bool = False) -> int:
+        """Convert hue, lightness and saturation to colours."""
+        return self._result(image, rgb_of_hls(self._at(image)), in_place)
+
+    def flip(self, image: int, code: int, in_place: bool = False) -> int:
+        """Mirror an image: top and bottom for 0, left and right above, both below 0."""
+        pixels = self._at(image)
+        pixels = pixels[::-1] if code <= 0 else pixels
+        return self._result(image, (pixels[:, ::-1] if code else pixels).copy(), in_place)
+
+    def repeat(self, image: int, rows: int, columns: int) -> int:
+        """Return an image that is several times below and beside itself."""
+        pixels = self._at(image)
+        self._check_size(pixels.shape[1] * columns, pixels.shape[0] * rows)
+        return self._keep(np.tile(pixels, (rows, columns, 1)))
+
     def split(self, image: int) -> list[int]:
         """Return an image of each channel."""
         pixels = self._at(image)
@@ -157,64 +178,6 @@ class SimIm(DrawingFunctions):
         if len({part.shape[:2] for part in parts}) != 1:
             raise ValueError("simIM.merge: the images have different sizes")
         return self._keep(np.concatenate(parts, axis=2))
-
-    def abs(self, image: int, in_place: bool = False) -> int:
-        """Return the absolute value of each number."""
-        return self._result(image, np.abs(self._at(image)), in_place)
-
-    def absdiff(self, image: int, other: int, in_place: bool = False) -> int:
-        """Return the absolute difference of two images."""
-        return self._combined(image, self._at(other), lambda a, b: np.abs(a - b), in_place)
-
-    def absdiffK(self, image: int, numbers: Numbers, in_place: bool = False) -> int:
-        """Return the absolute difference of an image and numbers, one of each channel."""
-        return self._combined(image, self._constant(image, numbers), lambda a, b: np.abs(a - b), in_place)
-
-    def add(self, image: int, other: int, in_place: bool = False) -> int:
-        """Return the sum of two images."""
-        return self._combined(image, self._at(other), np.add, in_place)
-
-    def addK(self, image: int, numbers: Numbers, in_place: bool = False) -> int:
-        """Return the sum of an image and numbers, one of each channel."""
-        return self._combined(image, self._constant(image, numbers), np.add, in_place)
-
-    def subtract(self, image: int, other: int, in_place: bool = False) -> int:
-        """Return the difference of two images."""
-        return self._combined(image, self._at(other), np.subtract, in_place)
-
-    def subtractK(self, image: int, numbers: Numbers, in_place: bool = False) -> int:
-        """Return the difference of an image and numbers, one of each channel."""
-        return self._combined(image, self._constant(image, numbers), np.subtract, in_place)
-
-    def multiply(self, image: int, other: int, in_place: bool = False) -> int:
-        """Return the product of two images."""
-        return self._combined(image, self._at(other), np.multiply, in_place)
-
-    def divide(self, image: int, other: int, in_place: bool = False) -> int:
-        """Return the quotient of two images; 0 where the second one is 0."""
-        return self._combined(
-            image, self._at(other), lambda a, b: np.divide(a, b, out=np.zeros_like(a), where=b != 0), in_place
-        )
-
-    def mean(self, image: int) -> list[float]:
-        """Return the mean of each channel."""
-        return [float(number) for number in self._at(image).mean(axis=(0, 1))]
-
-    def min(self, image: int, other: int, in_place: bool = False) -> int:
-        """Return the smaller numbers of two images."""
-        return self._combined(image, self._at(other), np.minimum, in_place)
-
-    def max(self, image: int, other: int, in_place: bool = False) -> int:
-        """Return the larger numbers of two images."""
-        return self._combined(image, self._at(other), np.maximum, in_place)
-
-    def greaterThanK(self, image: int, numbers: Numbers, in_place: bool = False) -> int:
-        """Return 255 where an image is above numbers, one of each channel, else 0."""
-        return self._combined(image, self._constant(image, numbers), lambda a, b: 255.0 * (a > b), in_place)
-
-    def lessThanK(self, image: int, numbers: Numbers, in_place: bool = False) -> int:
-        """Return 255 where an image is below numbers, one of each channel, else 0."""
-        return self._combined(image, self._constant(image, numbers), lambda a, b: 255.0 * (a < b), in_place)
 
     def read(self, file: str) -> int:
         """Return a new image from a file. For scripts that may use files: those in Python."""
