@@ -15,6 +15,7 @@ from bubblesim.geometry.frames import into
 from bubblesim.geometry.poses import axis_angle
 from bubblesim.geometry.rotations import product, quaternion_of_rpy
 
+_QUEUE = 100  # messages: filters integrate rates, and lose a turn with each one that is dropped
 _LONGEST = 1.0  # s between messages over which a turn is divided
 
 
@@ -35,7 +36,7 @@ class ImuSensor(Plugin):
         self._variances = self._noise.variances(3)
         self._readings = NewReadings(self, read_imu, p.number("updateRateHZ", p.number("updateRate", 1.0)))
         p.check()
-        self._publisher = self.advertise(p.text("topicName", "imu_data"), "sensor_msgs/Imu", 1)
+        self._publisher = self.advertise(p.text("topicName", "imu_data"), "sensor_msgs/Imu", _QUEUE)
 
     def reset(self) -> None:
         """Reset readings and noise."""
@@ -72,7 +73,7 @@ class LinkImu(Plugin):
         self._rate = Rate(p.number("updateRate", 0.0, least=0.0), self.simulation)
         service = self.topic(p.text("serviceName", self.default_service))
         p.check()
-        self._publisher = self.advertise(p.text("topicName", self.default_topic), "sensor_msgs/Imu", 1)
+        self._publisher = self.advertise(p.text("topicName", self.default_topic), "sensor_msgs/Imu", _QUEUE)
         self.advertise_service(service, "std_srvs/Empty", lambda _: None)  # calibration, in other drivers
 
     def default_body(self) -> str:
