@@ -13,6 +13,7 @@ from bubblesim.gazebo_plugins.drives.gazebo_drives import GazeboDiffDrive, Gazeb
 from bubblesim.gazebo_plugins.drives.gz_ackermann_steering import GzAckermannSteering
 from bubblesim.gazebo_plugins.drives.gz_diff_drive import GzDiffDrive
 from bubblesim.gazebo_plugins.drives.gz_odometry_publisher import GzOdometryPublisher
+from bubblesim.gazebo_plugins.drives.gz_velocity_control import GzVelocityControl
 from bubblesim.gazebo_plugins.drives.kobuki import Kobuki
 from bubblesim.gazebo_plugins.drives.planar_move import ForceBasedMove, PlanarMove
 from bubblesim.gazebo_plugins.drives.skid_steer_drive import SkidSteerDrive
@@ -100,6 +101,7 @@ PLUGINS: dict[str, type[Plugin]] = {
     "gz-multicopter-motor-model-system": MulticopterMotor,
     "gz-odometry-publisher-system": GzOdometryPublisher,
     "gz-wind-effects-system": WindEffects,
+    "gz-velocity-control-system": GzVelocityControl,
     "roboticsgroup_gazebo_mimic_joint_plugin": MimicJoint,
     "roboticsgroup_upatras_gazebo_mimic_joint_plugin": MimicJoint,
     "rotors_gazebo_motor_model": MulticopterMotor,
