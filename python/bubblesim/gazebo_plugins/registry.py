@@ -41,6 +41,7 @@ from bubblesim.gazebo_plugins.sensors.camera import Camera
 from bubblesim.gazebo_plugins.sensors.depth_camera import DepthCamera, OpenniKinect
 from bubblesim.gazebo_plugins.sensors.ft_sensor import FtSensor
 from bubblesim.gazebo_plugins.sensors.gps import Gps
+from bubblesim.gazebo_plugins.sensors.gz_battery import GzBattery
 from bubblesim.gazebo_plugins.sensors.imu import HectorImu, ImuSensor, LinkImu
 from bubblesim.gazebo_plugins.sensors.laser import Laser
 from bubblesim.gazebo_plugins.sensors.magnetic import Magnetic
@@ -97,6 +98,7 @@ PLUGINS: dict[str, type[Plugin]] = {
     "gz-diff-drive-system": GzDiffDrive,
     "gz-hydrodynamics-system": Hydrodynamics,
     "gz-lift-drag-system": LiftDrag,
+    "gz-linearbatteryplugin-system": GzBattery,
     "gz-multicopter-control-system": MulticopterVelocity,
     "gz-multicopter-motor-model-system": MulticopterMotor,
     "gz-odometry-publisher-system": GzOdometryPublisher,
