@@ -68,7 +68,7 @@ def running(run: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory) -
     wrong = "<capacity>1</capacity><initial_charge>1.5</initial_charge>"
     models = robot("resting", resting, 0.0) + robot("turning", small, 2.0) + robot("mistaken", wrong, 0.0)
     scene.write_text(f'<sdf version="1.9"><world name="w">{models}</world></sdf>')
-    return run(scene, "--speed", "4")
+    return run(scene, "--speed", "4", "--gazebo-compat")
 
 
 def test_a_battery_drains_after_a_message_on_its_topic(running: Any) -> None:
@@ -102,6 +102,20 @@ def test_an_empty_battery_switches_the_motors_off_until_it_is_charged(running: A
     peer.publish("/model/turning/battery/main/recharge/start", "std_msgs/Bool", {"data": True})
     peer.wait_for(topic, STATE, lambda state: state["power_supply_status"] == CHARGING, "the battery to charge")
     wait(2.0)
+
+
+def test_a_reset_charges_it_and_switches_the_motors_on(running: Any) -> None:
+    peer: Peer = running.peer
+    topic = "/model/turning/battery/main/state"
+    peer.publish("/model/turning/battery/main/recharge/stop", "std_msgs/Bool", {"data": True})
+    peer.wait_for(topic, STATE, lambda state: state["charge"] == 0.0, "the battery to be empty")
+    peer.call("/gazebo/reset_world")
+    peer.wait_for(topic, STATE, lambda state: 0.0 < state["charge"] < 0.02, "the battery to have charge")
+
+    def turns(states: Message) -> bool:
+        return bool(states["velocity"][states["name"].index("disc_joint")] == pytest.approx(2.0, abs=0.01))
+
+    peer.wait_for("/turning/joints", "sensor_msgs/JointState", turns, "the disc to turn again")
 
 
 def test_a_charge_above_the_capacity_is_reported(running: Any) -> None:
