@@ -143,7 +143,7 @@ void set_auto_inertia(const SdfElement& inertial, const std::vector<SdfElement>&
   link.mass = inertial.has("mass") ? inertial.number("mass") : mass;
   second *= link.mass / mass;
   link.inertia_diagonal = second.trace() * Vector3::Ones() - second.diagonal();
-  link.inertia_products = {-second(0, 1), -second(0, 2), -second(1, 2)};
+  link.inertia_products = Vector3() - Vector3(second(0, 1), second(0, 2), second(1, 2));  // no -0
 }
 
 }  // namespace bubblesim
