@@ -13,6 +13,7 @@ from bubblesim.gazebo_plugins.drives.gazebo_drives import GazeboDiffDrive, Gazeb
 from bubblesim.gazebo_plugins.drives.gz_ackermann_steering import GzAckermannSteering
 from bubblesim.gazebo_plugins.drives.gz_diff_drive import GzDiffDrive
 from bubblesim.gazebo_plugins.drives.gz_odometry_publisher import GzOdometryPublisher
+from bubblesim.gazebo_plugins.drives.gz_velocity_control import GzVelocityControl
 from bubblesim.gazebo_plugins.drives.kobuki import Kobuki
 from bubblesim.gazebo_plugins.drives.planar_move import ForceBasedMove, PlanarMove
 from bubblesim.gazebo_plugins.drives.skid_steer_drive import SkidSteerDrive
@@ -40,6 +41,7 @@ from bubblesim.gazebo_plugins.sensors.camera import Camera
 from bubblesim.gazebo_plugins.sensors.depth_camera import DepthCamera, OpenniKinect
 from bubblesim.gazebo_plugins.sensors.ft_sensor import FtSensor
 from bubblesim.gazebo_plugins.sensors.gps import Gps
+from bubblesim.gazebo_plugins.sensors.gz_battery import GzBattery
 from bubblesim.gazebo_plugins.sensors.imu import HectorImu, ImuSensor, LinkImu
 from bubblesim.gazebo_plugins.sensors.laser import Laser
 from bubblesim.gazebo_plugins.sensors.magnetic import Magnetic
@@ -96,10 +98,12 @@ PLUGINS: dict[str, type[Plugin]] = {
     "gz-diff-drive-system": GzDiffDrive,
     "gz-hydrodynamics-system": Hydrodynamics,
     "gz-lift-drag-system": LiftDrag,
+    "gz-linearbatteryplugin-system": GzBattery,
     "gz-multicopter-control-system": MulticopterVelocity,
     "gz-multicopter-motor-model-system": MulticopterMotor,
     "gz-odometry-publisher-system": GzOdometryPublisher,
     "gz-wind-effects-system": WindEffects,
+    "gz-velocity-control-system": GzVelocityControl,
     "roboticsgroup_gazebo_mimic_joint_plugin": MimicJoint,
     "roboticsgroup_upatras_gazebo_mimic_joint_plugin": MimicJoint,
     "rotors_gazebo_motor_model": MulticopterMotor,

@@ -14,6 +14,7 @@
 #include "bubblesim/joint_ramps.hpp"
 #include "bubblesim/planar_drive.hpp"
 #include "bubblesim/planar_force_drive.hpp"
+#include "bubblesim/spatial_drive.hpp"
 #include "bubblesim/timed_efforts.hpp"
 #include "devices/attached.hpp"
 #include "devices/number_target.hpp"
@@ -135,6 +136,25 @@ void bind_planar_drives(py::module_& module) {
   bind_planar_commands(force_drive);
 }
 
+void bind_spatial_drive(py::module_& module) {
+  using Drive = Attached<SpatialDrive>;
+  py::class_<Drive> drive(module, "SpatialDrive", "Gives a model or a link a velocity along its own axes.");
+  drive.def(py::init([](Simulation& simulation, ObjectId object) {
+              return attach_to_model_of<SpatialDrive>(object, simulation, [&](const World& world) {
+                return std::make_shared<SpatialDrive>(world, object);
+              });
+            }),
+            py::arg("simulation"), py::arg("object"), py::keep_alive<1, 2>());
+  Guarded(drive)
+      .def(
+          "set_velocity",
+          [](Drive& d, const Numbers3& linear, const Numbers3& angular) {
+            d.device->set_velocity({to_vector3(linear), to_vector3(angular)});
+          },
+          py::arg("linear"), py::arg("angular"), "m/s and rad/s along the object's axes, before each substep.")
+      .def("remove", &Drive::remove, "Remove it from the world.");
+}
+
 /// Calls a Python function before each substep. Made, called and destroyed in threads that may not hold the GIL.
 class SubstepCall : public Device {
  public:
@@ -200,6 +220,7 @@ void bind_devices(py::module_& module) {
   bind_timed_efforts(module);
   bind_joint_ramps(module);
   bind_planar_drives(module);
+  bind_spatial_drive(module);
   bind_substep_calls(module);
 }
 

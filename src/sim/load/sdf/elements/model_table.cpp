@@ -112,7 +112,7 @@ const char* const kModelTable = R"TABLE(
   @auto flag false
   mass number 1 required
   density number 1000
-  auto_inertia_params any ~ inertias are computed from shapes
+  auto_inertia_params any ~ auto inertias are exact
   pose pose
     &pose
   inertia none
@@ -144,8 +144,8 @@ const char* const kModelTable = R"TABLE(
       &pose
     laser_retro number 0 ~ laser_retro of the visual is used
     max_contacts integer 10
-    density number 1000 ~ of auto inertias
-    auto_inertia_params any ~ of auto inertias
+    density number 1000
+    auto_inertia_params any ~ auto inertias are exact
     geometry none
       &geometry
     surface none

@@ -5,9 +5,11 @@
 #include <optional>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "bubblesim/nearest_names.hpp"
 #include "load/sdf/elements/own_elements.hpp"
+#include "load/sdf/models/auto_inertia.hpp"
 #include "load/sdf/models/nearest_inertia.hpp"
 #include "load/sdf/models/sdf_geometry.hpp"
 #include "load/sdf/models/sdf_names_and_axes.hpp"
@@ -193,14 +195,22 @@ LinkDescription read_link(const SdfElement& link, const Frames& frames, const st
   description.wind_enabled = link.flag("enable_wind");
   description.linear_decay = read_decay(link, "linear", path, context);
   description.angular_decay = read_decay(link, "angular", path, context);
-  read_inertial(link.child("inertial"), description);
-  if (!is_static && description.mass > 0) repair_inertia(description, path, context);
   const auto placed = [&](const SdfElement& part) {
     return frames.pose_of(part, link.name(), path + "/" + part.name(), context);
   };
+  std::vector<SdfElement> solids;
   for (const SdfElement& collision : link.children("collision")) {
     auto read = read_collision(collision, placed(collision), path + "/" + collision.name(), context);
-    if (read) description.collisions.push_back(std::move(*read));
+    if (!read) continue;
+    description.collisions.push_back(std::move(*read));
+    solids.push_back(collision);
+  }
+  const SdfElement inertial = link.child("inertial");
+  if (!is_static && is_true(inertial.attribute("auto"))) {
+    set_auto_inertia(inertial, solids, path, description, context);
+  } else {
+    read_inertial(inertial, description);
+    if (!is_static && description.mass > 0) repair_inertia(description, path, context);
   }
   for (const SdfElement& visual : link.children("visual")) {
     read_visual(visual, placed(visual), path + "/" + visual.name(), is_static, description, context);
