@@ -54,8 +54,16 @@ def answer_times(node: ListeningNode, port: str, count: int) -> list[float]:
 
 
 @pytest.mark.parametrize("attacked", PORTS)
-@pytest.mark.parametrize("count", [20, pytest.param(200, marks=pytest.mark.long)])
-def test_junk_delays_the_answers_to_others_at_most_twice(node: ListeningNode, attacked: str, count: int) -> None:
+def test_others_are_answered_during_junk(node: ListeningNode, attacked: str) -> None:
+    with junk(node.ports[attacked]):
+        for port in PORTS:
+            assert answer_times(node, port, 20)[-1] < DEADLINE
+
+
+@pytest.mark.long  # a machine with other work is no place to compare times
+@pytest.mark.parametrize("attacked", PORTS)
+def test_junk_delays_the_answers_to_others_at_most_twice(node: ListeningNode, attacked: str) -> None:
+    count = 200
     before = {port: statistics.median(answer_times(node, port, count)) for port in PORTS}
     with junk(node.ports[attacked]):
         for port in PORTS:
@@ -73,7 +81,10 @@ def real_time_factor(node: ListeningNode, windows: int) -> float:
 
 
 @pytest.mark.parametrize("port", PORTS)
-def test_slow_clients_and_those_that_never_read_do_not_slow_down_the_simulation(node: ListeningNode, port: str) -> None:
+@pytest.mark.parametrize("least", [0.5, pytest.param(0.95, marks=pytest.mark.long)])
+def test_slow_clients_and_those_that_never_read_do_not_slow_down_the_simulation(
+    node: ListeningNode, port: str, least: float
+) -> None:
     slow = []
     with suppress(TimeoutError):  # beyond the limit of the port some are not accepted
         for _ in range(SLOW):
@@ -83,7 +94,7 @@ def test_slow_clients_and_those_that_never_read_do_not_slow_down_the_simulation(
         for connection in slow:
             with suppress(OSError):  # some ports close such connections
                 connection.send(bytes([byte]))
-    assert real_time_factor(node, windows=4) > 0.95
+    assert real_time_factor(node, windows=4) > least
     for other in PORTS:
         if other != port:
             assert node.ask(other) < DEADLINE
