@@ -32,7 +32,7 @@ def test_a_function_documents_its_arguments_and_what_it_does(name: str) -> None:
     assert text.startswith("sim.setObjectPosition(handle, position, relative_to=-1)\n")
     assert "position     3 numbers\n" in text
     assert "relative_to  the handle of an object, an integer, optional\n" in text
-    assert "Set the position of a model, link or dummy" in text
+    assert "Set the position of a model, link, hinge or dummy" in text
 
 
 @pytest.mark.parametrize(

@@ -240,7 +240,7 @@ TEST(Snapshot, RemovesModelsThatWereAddedSince) {
 TEST(Snapshot, HasTheSizeOfItsVersion) {
   Simulation simulation(scene({floor(), model("Box", link_with(Box{{1, 1, 1}}), at(0, 0, 2))}));
   const std::string saved = simulation.save();
-  EXPECT_EQ(static_cast<int>(saved[16]), 8) << "version";
+  EXPECT_EQ(static_cast<int>(saved[16]), 9) << "version";
   EXPECT_EQ(saved.size(), 855U) << "bytes";
 }
 

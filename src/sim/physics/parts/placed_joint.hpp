@@ -21,8 +21,12 @@ struct PlacedJoint {
   ObjectId child = kNoObject;
   Pose in_parent;
   Pose in_child;
+  Pose built_in_parent;  // before it was put elsewhere
+  Pose built_in_child;
   std::unique_ptr<WrenchMeter> meter;                     // null without a sensor
   std::vector<std::unique_ptr<MotorMeter>> motor_meters;  // by axis; null without a motor
+
+  bool is_elsewhere() const { return in_parent != built_in_parent || in_child != built_in_child; }
 };
 
 }  // namespace bubblesim

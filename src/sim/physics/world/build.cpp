@@ -190,6 +190,8 @@ class ModelBuilder {
     joint.child = child.object;
     joint.in_parent = parent == nullptr ? pose : link_pose(*parent).inverse() * pose;
     joint.in_child = link_pose(child).inverse() * pose;
+    joint.built_in_parent = joint.in_parent;
+    joint.built_in_child = joint.in_child;
     if (!model_.description.is_static) {
       JointSite site;
       site.pose = pose;
