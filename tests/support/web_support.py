@@ -178,6 +178,7 @@ class Window:
     def open_file(self, file: Path) -> None:
         """Choose a file in the window's dialog."""
         with self.page.expect_file_chooser() as chooser:
+            self.js("0")  # an answer comes when the browser has been told to report what it asks for
             self.button("Open a recorded run").click()
         chooser.value.set_files(file)
 
