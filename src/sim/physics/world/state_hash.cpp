@@ -67,7 +67,7 @@ std::uint64_t World::state_hash() const {
     for (std::size_t i = 0; i < model->joints.size(); ++i) {
       const PlacedJoint& placed = model->joints[i];
       if (is_anchor(*model, i)) add_pose(hash, placed.in_parent);
-      if (is_hinge(*model, i) && placed.is_elsewhere()) {  // else the file says where, which differs in the last bits
+      if (is_hinge(*model, i) && placed.is_elsewhere()) {  // else those of the file, which differ in the last bits
         add_pose(hash, placed.in_parent);
         add_pose(hash, placed.in_child);
       }
