@@ -36,6 +36,7 @@ from bubblesim.navigation.grid_map import GridMap
 from bubblesim.navigation.local_planning import Body
 from bubblesim.navigation.path_planning import Footprint
 from bubblesim.navigation.planar import Point, heading_of, hits, placed, pose_of
+from bubblesim.nodes.path_message import path_message
 from bubblesim.nodes.run_node import run_node, run_ros_program
 from bubblesim.nodes.twist_commands import TwistCommands
 
@@ -114,14 +115,7 @@ class GoTo:
         if points is self._shown:
             return
         self._shown = points
-        path = Path()
-        path.header.frame_id = self._map_frame
-        path.header.stamp = rospy.Time.now()
-        for x, y in points:
-            pose = PoseStamped(header=path.header)
-            pose.pose.position.x, pose.pose.position.y, pose.pose.orientation.w = x, y, 1.0
-            path.poses.append(pose)
-        self._path.publish(path)
+        self._path.publish(path_message(self._map_frame, points))
 
     def _place_of(self, frame: str, parent: str) -> Pose2D | None:
         """Return the pose of a frame in its parent, None without a transform."""

@@ -32,6 +32,7 @@ from bubblesim.navigation.driver import STANDING
 from bubblesim.navigation.driving import GaveUpError
 from bubblesim.navigation.grid_map import GridMap
 from bubblesim.navigation.planar import Point, heading_of, hits, placed, pose_of
+from bubblesim.nodes.path_message import path_message
 from bubblesim.nodes.run_node import run_node
 from bubblesim.nodes.twist_commands import TwistCommands
 
@@ -172,7 +173,7 @@ class MoveBase:
             return
         self._shown = points
         if any(publisher.get_num_connections() for publisher in self._plans):
-            message = self._maps.path_message(points)
+            message = path_message(self._settings.map_frame, points)
             for publisher in self._plans:
                 publisher.publish(message)
 

@@ -7,9 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import rospy
-from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import OccupancyGrid
-from nav_msgs.msg import Path as PathMessage
 from nav_msgs.srv import GetPlan, GetPlanResponse
 
 from bubblesim.compat.costmaps import Inflation, costmap_message, rolling_grid
@@ -18,6 +16,7 @@ from bubblesim.controllers.planar_motion import Pose2D
 from bubblesim.navigation.grid_map import GridMap
 from bubblesim.navigation.path_planning import NoPathError, plan
 from bubblesim.navigation.planar import Point, placed
+from bubblesim.nodes.path_message import path_message
 
 _SIDE, _RATE = 10.0, 2.0  # m, of the local costmap, and Hz
 
@@ -87,17 +86,6 @@ class MoveBaseMaps:
         stamp = rospy.Time.now()
         publisher.publish(costmap_message(self._local_frame, stamp, grid, self._inflations["local_costmap"]))
 
-    def path_message(self, points: list[Point]) -> Any:
-        """Return a path in the frame of the map."""
-        path = PathMessage()
-        path.header.frame_id = self._settings.map_frame
-        path.header.stamp = rospy.Time.now()
-        for x, y in points:
-            pose = PoseStamped(header=path.header)
-            pose.pose.position.x, pose.pose.position.y, pose.pose.orientation.w = x, y, 1.0
-            path.poses.append(pose)
-        return path
-
     def _make_plan(self, request: Any) -> Any:
         """Return the path on the map from a pose, or from the robot if it has no frame; without one, an empty path."""
         grid = self._grid()
@@ -105,13 +93,13 @@ class MoveBaseMaps:
         goal = self._point(request.goal)
         if grid is None or start is None or goal is None:
             rospy.logwarn("make_plan: there is no map, or no transform of the start or the goal")
-            return GetPlanResponse(plan=self.path_message([]))
+            return GetPlanResponse(plan=path_message(self._settings.map_frame, []))
         try:
             points = plan(grid, start, goal, self._settings.footprint)
         except NoPathError as error:
             rospy.logwarn(f"make_plan: {error}")
-            return GetPlanResponse(plan=self.path_message([]))
-        found = self.path_message(points)
+            return GetPlanResponse(plan=path_message(self._settings.map_frame, []))
+        found = path_message(self._settings.map_frame, points)
         found.poses[-1].pose.orientation = request.goal.pose.orientation
         return GetPlanResponse(plan=found)
 

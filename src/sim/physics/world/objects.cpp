@@ -105,6 +105,11 @@ void check_velocity(const WorldState& state, ObjectId object, const Twist& veloc
                      text(velocity.angular) + " rad/s is not usable: it must be finite and at most 1e6");
 }
 
+/// The world's for no link.
+Pose pose_of_link(const WorldState& state, ObjectId link) {
+  return link == kNoObject ? Pose() : link_pose(state.link(link));
+}
+
 }  // namespace
 
 ObjectId carrier(const WorldState& state, const Object& object) {
@@ -129,7 +134,7 @@ ObjectId carrier(const WorldState& state, const Object& object) {
 Pose pose_of(const WorldState& state, ObjectId object) {
   const Object& found = state.tree().at(object);
   const ObjectId link = carrier(state, found);
-  const Pose base = link == kNoObject ? Pose() : link_pose(state.link(link));
+  const Pose base = pose_of_link(state, link);
   switch (found.kind) {
     case ObjectKind::kModel:
       return base * state.frame(object).in_canonical_link;
@@ -189,10 +194,6 @@ void anchor_moved(const WorldState& state, PlacedModel& model, const std::set<Ob
     if (!is_anchor(model, i) || links.count(joint.child) == 0) continue;
     place_joint(model, i, normalized(link_pose(state.link(joint.child)) * joint.in_child), joint.in_child);
   }
-}
-
-Pose pose_of_link(const WorldState& state, ObjectId link) {
-  return link == kNoObject ? Pose() : link_pose(state.link(link));
 }
 
 /// A joint that moves between its links, and both of its sides in the world, where they are to be.

@@ -49,18 +49,11 @@ class ArithmeticFunctions(DrawingFunctions):
 
     def divide(self, image: int, other: int, in_place: bool = False) -> int:
         """Return the quotient of two images; 0 where the second one is 0."""
-        return self._combined(
-            image, self._at(other), lambda a, b: np.divide(a, b, out=np.zeros_like(a), where=b != 0), in_place
-        )
+        return self._combined(image, self._at(other), _quotient, in_place)
 
     def divideK(self, image: int, numbers: Numbers, in_place: bool = False) -> int:
         """Return the quotient of an image and numbers, one of each channel; 0 for those that are 0."""
-        return self._combined(
-            image,
-            self._constant(image, numbers),
-            lambda a, b: np.divide(a, b, out=np.zeros_like(a), where=b != 0),
-            in_place,
-        )
+        return self._combined(image, self._constant(image, numbers), _quotient, in_place)
 
     def addWeighted(
         self, image: int, other: int, alpha: float, beta: float, gamma: float, in_place: bool = False
@@ -154,3 +147,7 @@ class ArithmeticFunctions(DrawingFunctions):
         if other.shape not in (pixels.shape, pixels.shape[2:]):
             raise ValueError("the images have different sizes or channels")
         return self._result(image, action(pixels, other.astype(pixels.dtype)), in_place)
+
+
+def _quotient(numbers: Array, divisors: Array) -> Array:
+    return np.divide(numbers, divisors, out=np.zeros_like(numbers), where=divisors != 0)
