@@ -24,6 +24,13 @@ function sysCall_init()
         <table><header><item>A</item></header><row><item>cell</item></row></table>
         <progressbar id="8" minimum="0" maximum="10" value="5"/>
     </ui>]])
+    busy = simUI.create([[<ui title="Busy">
+        <label text="0" id="1"/>
+        <edit value="" id="2"/>
+        <spinbox minimum="0" maximum="1000" value="0" id="3" on-change="counted"/>
+        <button text="Press" id="4" on-click="pressed"/>
+        <hslider id="5" minimum="0" maximum="100" value="0"/>
+    </ui>]])
     dialog = sim.displayDialog('Question', 'Go on?', sim.dlgstyle_yes_no, false)
     console = sim.auxiliaryConsoleOpen('Log', 10, 0)
     sim.auxiliaryConsolePrint(console, 'first line')
@@ -34,7 +41,10 @@ function checked(ui, id, value) print('checked', id, value) end
 function written(ui, id, value) print('written', id, value) end
 function chosen(ui, id, value) print('chosen', id, value) end
 function closed(ui) print('closed') end
+function counted(ui, id, value) print('counted', value) end
+function pressed(ui, id) print('pressed') end
 function sysCall_sensing()
+    simUI.setLabelText(busy, 1, tostring(sim.getSimulationTime()))
     if sim.getDialogResult(dialog) == sim.dlgret_yes and not answered then
         answered = true
         print('yes')
@@ -49,7 +59,7 @@ def window(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ToolsPage]:
     script = write(folder / "drive.lua", SCRIPT)
     with ToolsPage(folder, "tricycle", "--child-script", f"/Tricycle={script}") as window:
         window.show("dialogs")
-        window.wait_for("document.querySelectorAll('.dialog').length === 3")
+        window.wait_for("document.querySelectorAll('.dialog').length === 4")
         yield window
         assert window.errors == []
 
@@ -88,6 +98,54 @@ def test_widgets_call_the_functions_of_the_script(window: ToolsPage) -> None:
     assert drive.locator("td").text_content() == "cell"
     drive.locator("button.tab", has_text="Two").click()
     window.wait_for(f"{dialog('Drive')}.textContent.includes('in two')")
+
+
+def later_label(window: ToolsPage) -> None:
+    """Wait until the page shows another time than now in the dialog Busy, whose script changes it in each step."""
+    label = f"{dialog('Busy')}.querySelector('.label').textContent"
+    before = window.page.evaluate(label)
+    window.wait_for(f"{label} !== '{before}'")
+
+
+def test_text_is_written_while_the_script_changes_other_widgets(window: ToolsPage) -> None:
+    text = window.page.locator(".dialog", has_text="Busy").locator("input[type=text]")
+    text.click()
+    for character in "two words":
+        window.page.keyboard.type(character)
+        later_label(window)
+    assert text.input_value() == "two words"
+
+
+def test_a_number_is_sent_when_it_is_complete(window: ToolsPage) -> None:
+    number = window.page.locator(".dialog", has_text="Busy").locator("input[type=number]")
+    number.fill("")
+    for digit in "123":
+        window.page.keyboard.type(digit)
+        later_label(window)
+    window.page.keyboard.press("Enter")
+    wait_for_line(window, "counted\t123")
+    assert "counted\t12\n" not in window.node.output
+
+
+def test_a_long_press_is_a_click(window: ToolsPage) -> None:
+    window.page.locator(".dialog", has_text="Busy").locator("button", has_text="Press").hover()
+    window.page.mouse.down()
+    later_label(window)
+    window.page.mouse.up()
+    wait_for_line(window, "pressed")
+
+
+def test_a_slider_is_dragged_while_the_script_changes_other_widgets(window: ToolsPage) -> None:
+    slider = window.page.locator(".dialog", has_text="Busy").locator("input[type=range]")
+    box = slider.bounding_box()
+    assert box is not None
+    window.page.mouse.move(box["x"] + 8, box["y"] + box["height"] / 2)
+    window.page.mouse.down()
+    later_label(window)
+    window.page.mouse.move(box["x"] + box["width"] - 1, box["y"] + box["height"] / 2)
+    later_label(window)
+    window.page.mouse.up()
+    assert slider.input_value() == "100"
 
 
 def test_a_dialog_is_answered_and_a_console_shows_its_lines(window: ToolsPage) -> None:

@@ -15,6 +15,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+from bubblesim.scene_files.copies import is_shipped
 from bubblesim.scene_state.problems import of_source
 from bubblesim.scripting.api import reference
 from bubblesim.scripting.api.functions import MODULES, functions
@@ -29,11 +30,12 @@ _CHECKED = "checked_script"  # name of the module that a script has during a che
 _MOST_CHARACTERS = 2_000_000
 
 
-async def read(page: Any, handle: int) -> dict[str, str]:
-    """Return object, file, language, text and the version of a script."""
+async def read(page: Any, handle: int) -> dict[str, Any]:
+    """Return object, file, language, text and the version of a script, and whether its file is ``shipped``."""
     script = await _find(page, handle)
-    text = read_text(Path(script["file"]))
-    return {**script, "text": text, "version": _version(text)}
+    file = Path(script["file"])
+    text = read_text(file)
+    return {**script, "text": text, "version": _version(text), "shipped": is_shipped(file)}
 
 
 async def save(page: Any, handle: int, text: str, version: str) -> dict[str, Any]:

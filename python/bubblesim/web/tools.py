@@ -7,7 +7,7 @@ from collections.abc import Awaitable, Callable
 from typing import Any
 
 from bubblesim.controllers.base_velocity import BaseVelocity
-from bubblesim.web import console, foreign_files, ros_markers, ros_topics, scene_files, script_files
+from bubblesim.web import console, foreign_files, ros_markers, ros_topics, scene_copies, scene_files, script_files
 from bubblesim.web.bag_recording import recording
 from bubblesim.web.served import Served
 
@@ -56,11 +56,13 @@ _LOOKING: dict[str, Callable[..., Awaitable[Any]]] = {
     "server.endMarkers": ros_markers.end,
     "server.recording": _state,
     "server.sceneFolders": scene_files.folders,
+    "server.copyFolders": scene_copies.folders,
 }
 _EDITING: dict[str, Callable[..., Awaitable[Any]]] = {
     "server.checkScript": script_files.check,
     "server.saveScript": script_files.save,
     "server.saveScene": scene_files.save,
+    "server.openCopy": scene_copies.open_copy,
     "server.readForeign": foreign_files.read,
     "server.openForeign": foreign_files.open_scene,
     "server.drive": _drive,

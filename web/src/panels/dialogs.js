@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Dialogs, consoles and user interfaces that scripts have opened, with the widgets that they describe.
+import morphdom from "morphdom";
+
 import { h } from "../dom.js";
 import { Poll } from "../poll.js";
 
@@ -72,7 +74,10 @@ function slider(values, send, extra = {}) {
 
 function table({ headers, rows }, send) {
   const cell = (text, row, column) =>
-    h("td", { onclick: () => send("selectionchange", [row, column]), ondblclick: () => send("cellactivate", [row, column, text]) }, text);
+    h("td", {
+      onclick: () => send("selectionchange", [row, column]),
+      ondblclick: ({ target }) => send("cellactivate", [row, column, target.textContent]),
+    }, text);
   return h(
     "table.cells",
     headers.some(Boolean) ? h("tr", headers.map((each) => h("th", each))) : null,
@@ -105,7 +110,11 @@ const MAKERS = {
   spinbox: ({ values }, send) =>
     h("span", values.prefix ?? "", h("input", {
       type: "number", min: values.minimum, max: values.maximum, step: values.step ?? (values.decimals ? 0.1 : 1), value: values.value,
-      onchange: ({ target }) => send("change", Number(target.value)),
+      oninput: ({ target }) => (target.dataset.unsent = ""),
+      onchange: ({ target }) => {
+        delete target.dataset.unsent;
+        send("change", Number(target.value));
+      },
     }), values.suffix ?? ""),
   hslider: ({ values }, send) => slider(values, send),
   dial: ({ values }, send) => slider(values, send),
@@ -130,28 +139,43 @@ const MAKERS = {
   br: () => h("span.break"),
 };
 
-/// Makes the elements of a panel. A widget in which the user writes keeps the focus when the panel is drawn again.
+/// Gives the elements on the page the content of newly made ones. They stay the same elements, with their handlers, so
+/// that a press, a drag and the text cursor of the user survive what scripts change meanwhile.
+const MORPHING = {
+  childrenOnly: true,
+  getNodeKey: (node) => node.dataset?.path,
+  onBeforeElUpdated(shown, made) {
+    if ("unsent" in shown.dataset) return false;
+    if (shown.tagName !== "CANVAS") return true;
+    shown.replaceWith(made); // pixels are no attributes
+    return false;
+  },
+};
+
+/// The elements of a panel.
 class View {
   constructor(app, panel) {
     this.app = app;
     this.handle = panel.handle;
+    this.unanswered = 0; // events of the user
     this.element = h("section.dialog");
     this.element.dataset.dialog = panel.handle;
     this.update(panel);
   }
 
+  /// Returns whether the panel is shown as it is now. It is not while events of the user are unanswered.
   update(panel) {
+    if (this.unanswered > 0) return false;
     const text = JSON.stringify(panel, (name, value) => (value instanceof Uint8Array ? value.length + value.at(-1) : value));
-    if (text === this.text && !text.includes('"columns"')) return;
+    if (text === this.text && !text.includes('"columns"')) return true;
     this.text = text;
-    const active = this.element.contains(document.activeElement) ? document.activeElement.closest("[data-path]")?.dataset.path : null;
     const { title, closeable, visible } = panel.values;
     this.element.hidden = !visible;
     const close = closeable ? h("button.close", { title: "Close", onclick: () => this.send([], "close") }, "×") : null;
     const whole = this.make(panel);
     whole.disabled = false;
-    this.element.replaceChildren(h("header", h("b", title), h("span.hint", panel.owner), close), whole);
-    if (active !== null) this.element.querySelector(`[data-path="${active}"] input, input[data-path="${active}"]`)?.focus();
+    morphdom(this.element, h("section", h("header", h("b", title), h("span.hint", panel.owner), close), whole), MORPHING);
+    return true;
   }
 
   make(part) {
@@ -172,11 +196,16 @@ class View {
     return element;
   }
 
-  send(path, event, value = null) {
-    this.app.link
-      .call("window.send_panel_event", [this.handle, path, event, value], "dialogs")
-      .then(() => dialogs.poll.now())
-      .catch((error) => this.app.notify(error.message, "error"));
+  async send(path, event, value = null) {
+    ++this.unanswered;
+    try {
+      await this.app.link.call("window.send_panel_event", [this.handle, path, event, value], "dialogs");
+    } catch (error) {
+      this.app.notify(error.message, "error");
+    } finally {
+      --this.unanswered;
+    }
+    dialogs.poll.now();
   }
 }
 
@@ -192,9 +221,10 @@ export const dialogs = {
     const show = (panels) => {
       const kept = new Set(panels.map(({ handle }) => handle));
       for (const handle of [...views.keys()]) if (!kept.has(handle)) views.delete(handle);
+      let current = true;
       for (const panel of panels) {
-        if (views.has(panel.handle)) views.get(panel.handle).update(panel);
-        else views.set(panel.handle, new View(app, panel));
+        if (!views.has(panel.handle)) views.set(panel.handle, new View(app, panel));
+        else if (!views.get(panel.handle).update(panel)) current = false;
       }
       const elements = [...views.values()].map(({ element }) => element);
       if (elements.length !== area.children.length || elements.some((each, i) => each !== area.children[i])) {
@@ -203,12 +233,12 @@ export const dialogs = {
       const tab = document.querySelector('.tab[data-panel="dialogs"]');
       const open = panels.filter(({ values }) => values.visible).length;
       if (tab) tab.textContent = open ? `Dialogs ${open}` : "Dialogs";
+      return current;
     };
     this.poll = new Poll(app, PERIOD, async () => {
       const found = await app.link.call("window.get_panels", [revision], "dialogs");
       if (found === null || found === undefined) return;
-      revision = found.revision;
-      show(found.panels);
+      revision = show(found.panels) ? found.revision : -1;
     });
     app.link.on("scene", () => (revision = -1));
     show([]);

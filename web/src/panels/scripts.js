@@ -2,6 +2,7 @@
 // The editor of child scripts. CodeMirror is loaded when the panel is shown first.
 import { h } from "../dom.js";
 import { Poll } from "../poll.js";
+import { showCopying } from "../saving.js";
 
 export const scripts = {
   id: "scripts",
@@ -11,6 +12,7 @@ export const scripts = {
     const chosen = h("select.script", { title: "The script of this object" });
     const state = h("span.state");
     const save = h("button.primary", { title: "Save the file and restart this script (Ctrl+S)" }, "Save and restart");
+    const copy = h("button", { title: "This scene is a shipped one: save a copy of your own, and open it" }, "Save a copy…");
     const revert = h("button", { title: "Read the file again" }, "Revert");
     const file = h("span.file");
     const holder = h("div.editor");
@@ -18,7 +20,7 @@ export const scripts = {
     const none = h("p.hint", { hidden: true }, "This scene has no child scripts.");
     let list = [];
     let editor = null; // loaded later
-    let current = null; // { handle, file, language, version }
+    let current = null; // { handle, file, language, version, text, shipped }
     const kept = new Map(); // by handle: { state, version, saved }
 
     const panel = { show: () => undefined };
@@ -26,11 +28,16 @@ export const scripts = {
       const of = handle === current?.handle && editor ? { text: editor.text(), saved: current.text } : kept.get(handle);
       return of !== undefined && of.text !== of.saved;
     };
+    const edited = () =>
+      list.map(({ handle }) => handle).filter(isDirty).map((handle) => [handle, handle === current.handle ? editor.text() : kept.get(handle).text]);
     const mark = () => {
       const dirty = Boolean(current && isDirty(current.handle));
       save.classList.toggle("dirty", dirty);
       revert.disabled = !dirty;
-      save.disabled = !current || !app.link.mayEdit;
+      save.disabled = copy.disabled = !current || !app.link.mayEdit;
+      copy.hidden = !current?.shipped;
+      save.classList.toggle("primary", copy.hidden);
+      copy.classList.toggle("primary", !copy.hidden);
       for (const option of chosen.options) {
         const each = list.find(({ handle }) => handle === Number(option.value));
         if (each) option.textContent = `${isDirty(each.handle) ? "• " : ""}${each.object}`;
@@ -80,7 +87,8 @@ export const scripts = {
       if (current) kept.set(current.handle, { text: editor.text(), saved: current.text, version: current.version });
       const read = await app.link.call("server.readScript", [handle]);
       const before = kept.get(handle);
-      current = { handle, file: read.file, language: read.language, version: read.version, text: read.text };
+      const { file: path, language, version, text, shipped } = read;
+      current = { handle, file: path, language, version, text, shipped };
       if (before && before.text !== before.saved) {
         Object.assign(current, { version: before.version, text: before.saved });
         editor.open(before.text, read.language);
@@ -133,6 +141,7 @@ export const scripts = {
       mark();
     };
     save.onclick = () => run();
+    copy.onclick = () => showCopying(app, edited());
     revert.onclick = async () => {
       const { handle } = current;
       kept.delete(handle);
@@ -166,7 +175,7 @@ export const scripts = {
     });
     panel.poll = new Poll(app, 1000, refresh);
     this.panel = panel;
-    return h("div.scripts", h("div.bar", chosen, state, save, revert, file), none, holder, signature);
+    return h("div.scripts", h("div.bar", chosen, state, copy, save, revert, file), none, holder, signature);
   },
   show() {
     this.panel.poll.start();
