@@ -30,6 +30,7 @@ def pytest_unconfigure() -> None:
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--long", action="store_true", help="run the tests marked long, too")
+    parser.addoption("--renew-pictures", action="store_true", help="write the pictures that pages are compared with")
 
 
 # The tests start with these, in this order: files that take minutes, so that no process waits for another one at the

@@ -180,3 +180,10 @@ def test_the_first_error_of_what_is_asked_again_and_again_is_shown(tmp_path: Pat
         page.wait("bubblesim.test.answered >= 2")
         page.js("bubblesim.test.fails = true")
         page.wait("bubblesim.test.shown.length === 2")
+
+
+def test_without_dialogs_the_panel_explains_what_it_shows(tmp_path: Path, show: Show) -> None:
+    with Node(tmp_path, "ball", "--paused") as node:
+        page = show(node).page
+        page.click('.tab[data-panel="dialogs"]')
+        assert page.locator(".dialogs").inner_text() == "No script has opened a dialog or a user interface."

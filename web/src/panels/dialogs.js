@@ -226,9 +226,9 @@ export const dialogs = {
         if (!views.has(panel.handle)) views.set(panel.handle, new View(app, panel));
         else if (!views.get(panel.handle).update(panel)) current = false;
       }
-      const elements = [...views.values()].map(({ element }) => element);
+      const elements = views.size ? [...views.values()].map(({ element }) => element) : [none];
       if (elements.length !== area.children.length || elements.some((each, i) => each !== area.children[i])) {
-        area.replaceChildren(...elements, ...(elements.length ? [] : [none]));
+        area.replaceChildren(...elements);
       }
       const tab = document.querySelector('.tab[data-panel="dialogs"]');
       const open = panels.filter(({ values }) => values.visible).length;
