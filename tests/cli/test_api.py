@@ -61,3 +61,19 @@ def test_an_unknown_name_brings_similar_ones() -> None:
     run = bubblesim("api", "getObjekt")
     assert (run.returncode, run.stdout) == (2, "")
     assert "there is no script function 'getObjekt'; did you mean getObject" in run.stderr
+
+
+def test_how_a_function_differs_from_coppeliasims_is_stated() -> None:
+    refusing = bubblesim("api", "sim.setObjectParent").stdout
+    assert "In CoppeliaSim, it changes any object; here an object held by physics or the file stays" in refusing
+    assert "In CoppeliaSim, the result is -1 before the first step" in bubblesim("api", "readProximitySensor").stdout
+    assert "In CoppeliaSim, it has an effect; here the call is accepted" in bubblesim("api", "sim.addBanner").stdout
+    assert "In CoppeliaSim" not in bubblesim("api", "sim.getObjectPosition").stdout
+
+
+def test_each_difference_is_a_clause() -> None:
+    for module, api in MODULES.items():
+        for function in functions(api):
+            if function.differs:
+                assert "; here" in function.differs, f"{module}.{function.name}"
+                assert not function.differs.endswith(".")

@@ -6,8 +6,11 @@ from __future__ import annotations
 from typing import Any
 
 from bubblesim.geometry import poses
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Handle, Numbers, Vector12
 from bubblesim.scripting.api.sim.logs import LogFunctions
+
+_NO_SERIAL = "it uses a serial port; here scripts open none"
 
 
 class AcceptedFunctions(LogFunctions):
@@ -58,6 +61,7 @@ class AcceptedFunctions(LogFunctions):
         """Return the name of a script's object (old style)."""
         return self._tree.name(self._resolve(script))
 
+    @differs("it sets a variable of another script; here callScriptFunction calls one of its functions")
     def setScriptVariable(self, name: str, script: int, value: Any) -> int:
         """Return -1: call a function of the script instead."""
         self._warn(
@@ -80,10 +84,12 @@ class AcceptedFunctions(LogFunctions):
         data: str | bytes | None = self._caller.shared.custom_data.get((owner, tag))
         return self._world.file_data(owner).get(tag) if data is None else data
 
+    @differs("materials are objects; here they are those of the file")
     def getMaterialId(self, name: str) -> int:
         """Return -1: materials are those of the file."""
         return -1
 
+    @differs("it gives a shape another friction; here materials are those of the file")
     def setShapeMaterial(self, shape: Handle, material: int) -> int:
         """Accept the material of a shape: materials are those of the file. Return 1."""
         return 1
@@ -114,19 +120,23 @@ class AcceptedFunctions(LogFunctions):
     def setStepper(self, *arguments: Any) -> None:
         """Accept who steps the simulation."""
 
+    @differs(_NO_SERIAL)
     def serialOpen(self, port: Any, baud: int = 9600) -> int:
         """Return -1: serial ports cannot be opened by scripts."""
         self._warn("serialOpen", "serial ports cannot be opened")
         return -1
 
+    @differs(_NO_SERIAL)
     def serialClose(self, port: int) -> int:
         """Return 0."""
         return 0
 
+    @differs(_NO_SERIAL)
     def serialSend(self, port: int, data: Any) -> int:
         """Return 0: nothing is sent."""
         return 0
 
+    @differs(_NO_SERIAL)
     def serialRead(self, port: int, length: int = 0, *more: Any) -> None:
         """Return None (nil)."""
 

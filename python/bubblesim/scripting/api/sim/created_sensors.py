@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from bubblesim.scene_state.created_sensors import CreatedSensor, proximity_sensor, vision_sensor
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Integers, Numbers
 from bubblesim.scripting.api.sim.created_objects import CreatedObjectFunctions
 
@@ -16,6 +17,7 @@ class CreatedSensorFunctions(CreatedObjectFunctions):
     """A created sensor looks along the z axis of its object, which can be moved and attached to others; on a body it
     moves along. It stays until it is removed or the scene is closed."""
 
+    @differs("all options and parameters count; here the range, sizes and angles")
     def createProximitySensor(
         self, kind: int, subtype: int, options: int, integers: Integers, floats: Numbers, more: Any = None
     ) -> int:
@@ -26,6 +28,7 @@ class CreatedSensorFunctions(CreatedObjectFunctions):
         smallest distance (m); the others, ``subtype``, ``options`` and ``integers`` have no effect."""
         return self._add_sensor(proximity_sensor(kind, floats))
 
+    @differs("all options and parameters count; here resolution, planes, angle and perspective")
     def createVisionSensor(self, options: int, integers: Integers, floats: Numbers, more: Any = None) -> int:
         """Create a camera at the origin and return its handle; not in sysCall_sensing.
 

@@ -9,10 +9,14 @@ from typing import Any
 
 from bubblesim._core import WrongObject, camera_optics
 from bubblesim.scripting.api.checked_calls import refusal_warns
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Handle
 from bubblesim.scripting.api.sim.joints import JointFunctions
 from bubblesim.scripting.api.sim.object_changes import ObjectChangeFunctions
 from bubblesim.scripting.api.sim.object_collections import CollectionFunctions
+
+_ENGINE_KEPT = "it reads a parameter of a physics engine; here what scripts set is kept, without effect on the physics"
+_ENGINE_SET = "it sets a parameter of a physics engine; here the number is kept, without effect on the physics"
 
 _OF_OBJECTS = ("obj", "vision", "joint", "shape", "prox", "force", "light", "camera", "dummy")
 _OF_ENGINES = ("bullet", "ode", "newton")
@@ -101,26 +105,32 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         """Set a flag of an object, an integer parameter."""
         self.setObjectInt32Param(handle, parameter, int(value))
 
+    @differs(_ENGINE_KEPT)
     def getEngineInt32Param(self, parameter: int, handle: int = -1, data: object = None, ok: object = None) -> int:
         """Return an integer that was set for a physics engine; 0 if none was. Settings of engines have no effect."""
         return int(self._kept_of_engine(int, parameter, handle))
 
+    @differs(_ENGINE_SET)
     def setEngineInt32Param(self, parameter: int, handle: int, data: Any, value: Any = None) -> None:
         """Keep an integer for a physics engine; its arguments are parameter, handle, data (nil) and value."""
         self._keep_of_engine(int, parameter, handle, data if value is None else value)
 
+    @differs(_ENGINE_KEPT)
     def getEngineFloatParam(self, parameter: int, handle: int = -1, data: object = None, ok: object = None) -> float:
         """Return a number that was set for a physics engine; 0 if none was. Settings of engines have no effect."""
         return float(self._kept_of_engine(float, parameter, handle))
 
+    @differs(_ENGINE_SET)
     def setEngineFloatParam(self, parameter: int, handle: int, data: Any, value: Any = None) -> None:
         """Keep a number for a physics engine; its arguments are parameter, handle, data (nil) and value."""
         self._keep_of_engine(float, parameter, handle, data if value is None else value)
 
+    @differs(_ENGINE_KEPT)
     def getEngineBoolParam(self, parameter: int, handle: int = -1, data: object = None, ok: object = None) -> bool:
         """Return a flag that was set for a physics engine; false if none was. Settings of engines have no effect."""
         return bool(self._kept_of_engine(bool, parameter, handle))
 
+    @differs(_ENGINE_SET)
     def setEngineBoolParam(self, parameter: int, handle: int, data: Any, value: Any = None) -> None:
         """Keep a flag for a physics engine; its arguments are parameter, handle, data (nil) and value."""
         self._keep_of_engine(bool, parameter, handle, data if value is None else value)
@@ -131,6 +141,7 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         own = 0 if self._world.is_model_base(handle) else self.modelproperty_not_model
         return int(self._caller.shared.settings.get((int, f"model property {handle}"), own))
 
+    @differs("flags hide, disable ... a model; here they are kept, without effect")
     def setModelProperty(self, handle: Handle, value: int) -> None:
         """Keep flags of a model, sim.modelproperty_not_visible for example; they have no effect."""
         handle = self._resolve(handle)
@@ -141,6 +152,7 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         """Return flags of an object, sim.objectproperty_selectable for example, or what was set."""
         return self._flags(handle, "property", self.objectproperty_selectable)
 
+    @differs("flags hide, lock ... an object; here they are kept, without effect")
     def setObjectProperty(self, handle: Handle, value: int) -> None:
         """Keep flags of an object; they have no effect."""
         self._keep_flags(handle, "property", value)
@@ -158,6 +170,7 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         is_shape = self._tree.kind(handle) in ("model", "link", "shape")
         return self._flags(handle, "special property", all_of_a_shape if is_shape else 0)
 
+    @differs("it also sets what sensors detect; here sim.proxintparam_entity_to_detect and collections do")
     def setObjectSpecialProperty(self, handle: Handle, value: int) -> None:
         """Keep what else an object is. sim.checkCollision and checkDistance leave out shapes that are not collidable or
         measurable; for sensors it has no effect, use sim.proxintparam_entity_to_detect."""

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from bubblesim.geometry import poses, rotations
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Handle, Numbers, Vector3
 from bubblesim.scripting.api.sim import path_points
 from bubblesim.scripting.api.sim.objects import ObjectFunctions
@@ -101,6 +102,7 @@ class PathFunctions(ObjectFunctions):
         self._caller.shared.settings[float, f"position on path {self._resolve(path)}"] = position
         return 1
 
+    @differs("a path moves its position at this velocity; here scripts call setPathPosition")
     def setPathTargetNominalVelocity(self, path: Handle, velocity: float) -> int:
         """Keep the velocity of a path (old name), which has no effect; return 1."""
         self._path(path)

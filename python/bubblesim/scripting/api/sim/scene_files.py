@@ -9,6 +9,7 @@ from typing import Any
 
 from bubblesim._core import SceneError, scene_folders
 from bubblesim.scene_state.saved_scene import scene_text, write_scene
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.functions import for_remote_only
 from bubblesim.scripting.api.sim.browser_models import browser_model, suggestion
 from bubblesim.scripting.api.sim.created_sensors import CreatedSensorFunctions
@@ -37,6 +38,7 @@ class SceneFileFunctions(CreatedSensorFunctions):
         """Stop the simulation and go on with an empty scene, a ground plane; return 1. For remote clients only."""
         raise RuntimeError("sim.closeScene needs a running node")
 
+    @differs("it writes a .ttt file; here one in SDFormat")
     @for_remote_only
     def saveScene(self, file: str, overwrite: bool = False) -> int:
         """Write the scene of a stopped simulation to an .sdf file, which takes the place of a .ttt file; return 1.

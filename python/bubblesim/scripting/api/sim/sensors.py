@@ -18,6 +18,7 @@ from bubblesim._core import (
     reading_time,
 )
 from bubblesim.geometry import poses
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Handle, Numbers
 from bubblesim.scripting.api.sim.object_collections import CollectionFunctions
 
@@ -30,11 +31,13 @@ class SensorFunctions(CollectionFunctions):
     """Proximity sensors return (result, distance, point, object, normal) in the sensor's frame, metres. They detect the
     nearest object if it belongs to sim.proxintparam_entity_to_detect, by default all but their own model."""
 
+    @differs("the result is -1 before the first step; here it measures then")
     def readProximitySensor(self, sensor: Handle) -> Reading:
         """Return the last measurement; result 0 and distance 0.0 if nothing was detected."""
         sensor = self._sensor(sensor)
         return self._detected(read_proximity(self._simulation, sensor), sensor)
 
+    @differs("with sim.handle_all, all sensors measure; here they do when they are due")
     def handleProximitySensor(self, sensor: Handle) -> Reading:
         """Measure now; for sim.handle_all, and handle_all_except_explicit, nothing: sensors measure when they are
         due."""
