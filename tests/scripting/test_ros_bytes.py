@@ -37,3 +37,36 @@ def test_bytes_of_messages_are_tables_in_lua_unless_a_script_wants_strings(rosco
         wait_until(lambda: "table\ttable\t2" in node.output, "the table")
         assert "string\tstring\t3" in node.output
         assert "python b'\\x01\\x02\\x03'" in node.output
+
+
+SERVICES = """
+function sysCall_init()
+    server = simROS.advertiseService('/keep', 'bubblesim_msgs/RestoreState', 'keep')
+    other = simROS.advertiseService('/give', 'bubblesim_msgs/SaveState', 'give')
+    restore = simROS.serviceClient('/keep', 'bubblesim_msgs/RestoreState')
+    save = simROS.serviceClient('/give', 'bubblesim_msgs/SaveState')
+end
+function keep(request) print('request', type(request.state), #request.state) return {success = true} end
+function give(request) return {success = true, state = '\\1\\2\\3'} end
+function exchange()
+    simROS.call(restore, {state = {4, 5}})
+    local response = simROS.call(save)
+    print('response', type(response.state), #response.state)
+end
+function sysCall_actuation()
+    if done then return end
+    done = true
+    exchange()
+    simROS.serviceServerTreatUInt8ArrayAsString(server)
+    simROS.serviceClientTreatUInt8ArrayAsString(save)
+    exchange()
+end
+"""
+
+
+def test_so_are_those_of_services(roscore: RosCore, tmp_path: Path) -> None:
+    option = f"/Tricycle={write(tmp_path / 'script.lua', SERVICES)}"
+    with Node(roscore.env, tmp_path / "log", "tricycle", "--child-script", option) as node:
+        wait_until(lambda: node.output.count("response") == 2, "the responses")
+        lines = [line.split("] ")[-1] for line in node.output.splitlines() if "request" in line or "response" in line]
+        assert lines == ["request\ttable\t2", "response\ttable\t3", "request\tstring\t2", "response\tstring\t3"]
