@@ -5,9 +5,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from bubblesim.geometry import poses
 from bubblesim.scripting.api.differences import differs
-from bubblesim.scripting.api.kinds import Handle, Numbers, Vector12
+from bubblesim.scripting.api.kinds import Handle
 from bubblesim.scripting.api.sim.logs import LogFunctions
 
 _NO_SERIAL = "it uses a serial port; here scripts open none"
@@ -40,22 +39,6 @@ class AcceptedFunctions(LogFunctions):
         handle = self._resolve(dummy)
         self._tree.dummy(handle)  # raises
         return int(self._caller.shared.settings.get((int, f"link of {handle}"), -1))
-
-    def setSphericalJointMatrix(self, joint: Handle, matrix: Vector12) -> int:
-        """Turn a spherical joint: its child, if it is a frame; physics alone turns joints of bodies. Return 1."""
-        handle = self._resolve(joint)
-        if self._tree.has_body(handle):
-            self._warn("setSphericalJointMatrix", "physics alone turns a spherical joint")
-            return 1
-        pose = poses.of_matrix(matrix)
-        for child in self._tree.children(handle):
-            if not self._tree.has_body(child):
-                self._tree.set_pose(child, pose, handle)
-        return 1
-
-    def setSphericalJointRotation(self, joint: Handle, quaternion: Numbers) -> int:
-        """Turn a spherical joint; see setSphericalJointMatrix."""
-        return 1
 
     def getScriptName(self, script: int) -> str:
         """Return the name of a script's object (old style)."""
