@@ -70,3 +70,43 @@ def test_so_are_those_of_services(roscore: RosCore, tmp_path: Path) -> None:
         wait_until(lambda: node.output.count("response") == 2, "the responses")
         lines = [line.split("] ")[-1] for line in node.output.splitlines() if "request" in line or "response" in line]
         assert lines == ["request\ttable\t2", "response\ttable\t3", "request\tstring\t2", "response\tstring\t3"]
+
+
+MORE = """
+local transform = {header = {stamp = 0, frame_id = 'world'}, child_frame_id = 'a',
+                   transform = {translation = {x = 1, y = 0, z = 0}, rotation = {x = 0, y = 0, z = 0, w = 1}}}
+function sysCall_init()
+    simROS.subscribe('/tf', 'tf2_msgs/TFMessage', 'placed', 10)
+    local other = simROS2.createSubscription('/bytes', 'std_msgs/UInt8MultiArray', 'received')
+    simROS2.subscriptionTreatUInt8ArrayAsString(other)
+    publisher = simROS2.createPublisher('/bytes', 'std_msgs/UInt8MultiArray')
+    local client = simROS2.createClient('/keep', 'bubblesim_msgs/RestoreState')
+    local server = simROS2.createService('/keep', 'bubblesim_msgs/RestoreState', 'keep')
+    simROS2.clientTreatUInt8ArrayAsString(client)
+    simROS2.serviceTreatUInt8ArrayAsString(server)
+    simROS2.call(client, {state = 'abc'})
+    local images = simROS2.imageTransportCreateSubscription('/image', 'seen')
+    simROS2.imageTransportShutdownSubscription(images)
+    print('shut down', pcall(simROS2.imageTransportShutdownSubscription, images))
+end
+function sysCall_actuation()
+    transform.header.stamp = simROS.getTime()
+    simROS.sendTransforms({transform})
+    simROS2.sendTransforms({})
+    simROS2.publish(publisher, {data = {7, 8}})
+    simROS2.spinSome()
+end
+function placed(message)
+    if not a and #message.transforms > 0 then print('placed', message.transforms[1].child_frame_id) a = true end
+end
+function received(message) if not b then print('received', type(message.data)) end b = true end
+function keep(request) print('kept', request.state) return {success = true} end
+function seen() end
+"""
+
+
+def test_the_names_of_ros_2_do_the_same(roscore: RosCore, tmp_path: Path) -> None:
+    option = f"/Tricycle={write(tmp_path / 'script.lua', MORE)}"
+    with Node(roscore.env, tmp_path / "log", "tricycle", "--child-script", option) as node:
+        for line in ("kept\tabc", "received\tstring", "placed\ta", "shut down\tfalse"):
+            wait_until(lambda line=line: line in node.output, line)  # type: ignore[misc]

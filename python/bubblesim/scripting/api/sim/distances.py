@@ -30,8 +30,11 @@ class DistanceFunctions(ObjectChangeFunctions, CollectionFunctions, LogFunctions
             return 0, []
         return 1, [self._shape_of(found[3]), self._shape_of(found[4])]
 
+    @differs("it returns the segments in which surfaces intersect; here one pair of points")
     def checkCollisionEx(self, first: int, second: int) -> tuple[int, list[float]]:
-        """Return 1 if two entities touch or overlap, else 0, and a segment at a place where they do, 6 numbers."""
+        """Return 1 if two entities touch or overlap, else 0, and their nearest points, 6 numbers.
+
+        If they overlap, it is twice a point of one of them."""
         found = self._nearest(first, second, 0.0, self.objectspecialproperty_collidable)
         return (0, []) if found is None else (1, [*found[1], *found[2]])
 

@@ -62,6 +62,7 @@ class SensorFunctions(CollectionFunctions):
         reading = self.checkProximitySensor(sensor, entity)
         return reading if threshold <= 0 or reading[1] >= threshold else _NOTHING
 
+    @differs("the nearest place of segments and triangles in its volume counts; here their corners within its range")
     def checkProximitySensorEx2(
         self,
         sensor: Handle,
@@ -79,8 +80,11 @@ class SensorFunctions(CollectionFunctions):
         corners = vertices[: count * per_item]
         pose = self._tree.pose(self._resolve(sensor))
         low, high = self._world.sonar_limits(self._sensor(sensor))[:2]
-        points = [poses.transform(poses.inverse(pose), corners[i : i + 3]) for i in range(0, len(corners) - 2, 3)]
-        seen = [point for point in points if point[2] > 0 and low <= math.hypot(*point) <= high]
+        places = [corners[i : i + 3] for i in range(0, len(corners) - 2, 3)]
+        looks = poses.inverse([float(part) for part in self._world.pose(self._sensor(sensor))])  # along x
+        ahead = [place for place in places if poses.transform(looks, place)[0] > 0]
+        points = [poses.transform(poses.inverse(pose), place) for place in ahead]
+        seen = [point for point in points if low <= math.hypot(*point) <= high]
         if not seen:
             return 0, 0.0, [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
         nearest = min(seen, key=lambda point: math.hypot(*point))

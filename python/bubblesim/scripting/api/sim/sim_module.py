@@ -41,8 +41,8 @@ from bubblesim.scripting.api.sim.selection import SelectionFunctions
 from bubblesim.scripting.api.sim.sensors import SensorFunctions
 from bubblesim.scripting.api.sim.signals import SignalFunctions
 from bubblesim.scripting.api.sim.simulator_functions import SimulatorFunctions
-from bubblesim.scripting.api.sim.threads import ThreadFunctions
 from bubblesim.scripting.api.sim.spherical_joints import SphericalJointFunctions
+from bubblesim.scripting.api.sim.threads import ThreadFunctions
 from bubblesim.scripting.api.sim.times import TimeFunctions
 from bubblesim.scripting.api.sim.tubes import TubeFunctions
 from bubblesim.scripting.api.sim.vision import VisionFunctions
