@@ -139,11 +139,10 @@ class DistanceFunctions(ObjectChangeFunctions, CollectionFunctions, LogFunctions
         self.addLog(self.verbosity_scriptwarnings | self.verbosity_once, f"sim.{function}: {why}")
 
     def _bounds(self, handle: int) -> tuple[list[float], list[float]]:
-        found = self._world.bounds(self._links(handle), self._tree.pose(handle))
+        found = self._box_of(self._links(handle), handle)
         if found is None:
             raise ValueError(f"{self._tree.short_path(handle)} has no shape of a finite size that collides")
-        low, high = found
-        return list(low), list(high)
+        return found
 
     def _shape_of(self, link: int) -> int:
         """Return the object that scripts know for a link: its model, if it has one link."""

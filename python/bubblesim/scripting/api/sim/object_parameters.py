@@ -12,8 +12,8 @@ from bubblesim.scripting.api.checked_calls import refusal_warns
 from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Handle
 from bubblesim.scripting.api.sim.joints import JointFunctions
-from bubblesim.scripting.api.sim.object_changes import ObjectChangeFunctions
 from bubblesim.scripting.api.sim.object_collections import CollectionFunctions
+from bubblesim.scripting.api.sim.sensor_changes import SensorChangeFunctions
 
 _ENGINE_KEPT = "it reads a parameter of a physics engine; here what scripts set is kept, without effect on the physics"
 _ENGINE_SET = "it sets a parameter of a physics engine; here the number is kept, without effect on the physics"
@@ -22,7 +22,7 @@ _OF_OBJECTS = ("obj", "vision", "joint", "shape", "prox", "force", "light", "cam
 _OF_ENGINES = ("bullet", "ode", "newton")
 
 
-class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, CollectionFunctions):
+class ObjectParameterFunctions(JointFunctions, SensorChangeFunctions, CollectionFunctions):
     """Parameters of objects by their number, sim.jointfloatparam_velocity for example. Those without effect here, such
     as the settings of other physics engines, keep what is set; they are 0 before."""
 
@@ -42,7 +42,7 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         """Set sim.jointintparam_dynctrlmode, the control mode of a joint, or motor_enabled and ctrl_enabled, or
         proxintparam_entity_to_detect, the object or collection that a proximity sensor detects, until the scene is
         reset; or of a model sim.shapeintparam_static (1: physics does not move it), of a created shape
-        sim.shapeintparam_respondable."""
+        sim.shapeintparam_respondable, of a created camera visionintparam_resolution_x and y."""
         handle = self._resolve(handle)
         write = self._settable_integers().get(parameter)
         if write is not None:
@@ -194,12 +194,8 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
             self.jointintparam_ctrl_enabled: lambda joint: int(self._control_mode(joint) == self.jointdynctrl_position),
             self.shapeintparam_static: lambda shape: int(self._is_static(shape)),
             self.shapeintparam_respondable: lambda shape: int(self._is_respondable(shape)),
-            self.visionintparam_resolution_x: lambda camera: int(
-                camera_optics(self._simulation, self._sensor(camera))[0]
-            ),
-            self.visionintparam_resolution_y: lambda camera: int(
-                camera_optics(self._simulation, self._sensor(camera))[1]
-            ),
+            self.visionintparam_resolution_x: lambda camera: self._optics_of(camera)[0],
+            self.visionintparam_resolution_y: lambda camera: self._optics_of(camera)[1],
             self.proxintparam_entity_to_detect: self._entity_to_detect,
         }
 
@@ -211,6 +207,8 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
             self.shapeintparam_static: lambda shape, value: self._set_static(shape, value != 0),
             self.shapeintparam_respondable: lambda shape, value: self._set_respondable(shape, value != 0),
             self.proxintparam_entity_to_detect: self._set_entity_to_detect,
+            self.visionintparam_resolution_x: lambda camera, value: self._set_pixels(camera, columns=value),
+            self.visionintparam_resolution_y: lambda camera, value: self._set_pixels(camera, rows=value),
         }
 
     def _side_of_box(self, handle: int, side: int) -> float:
@@ -219,7 +217,7 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
             return 0.0
         is_link = self._tree.kind(handle) == "link"
         links = [handle] if is_link and side < 6 else self._world.parts(self._tree.model(handle), "link")
-        found = self._world.bounds(links, self._tree.pose(handle))
+        found = self._box_of(links, handle)
         return 0.0 if found is None else float([*found[0], *found[1]][side % 6])
 
     def _floats(self) -> dict[int, Callable[[int], float]]:
@@ -227,9 +225,7 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         return {
             self.jointfloatparam_velocity: lambda joint: float(self._world.joint_velocity(joint)),
             self.jointfloatparam_upper_limit: lambda joint: float(self._world.joint_limits(joint)[1]),
-            self.visionfloatparam_perspective_angle: lambda camera: float(
-                camera_optics(self._simulation, self._sensor(camera))[2]
-            ),
+            self.visionfloatparam_perspective_angle: self._angle_of_view,
             self.objfloatparam_size_factor: lambda handle: 1.0,
             self.shapefloatparam_mass: lambda shape: self.getShapeMass(self._shown(shape)),
         }
@@ -240,7 +236,12 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
 
     def _optics_of(self, camera: int) -> tuple[int, int, float]:
         columns, rows, angle = camera_optics(self._simulation, self._sensor(camera))
-        return columns, rows, angle
+        return int(columns), int(rows), float(angle)
+
+    def _angle_of_view(self, camera: int) -> float:
+        """Return the angle of a camera's larger side, rad."""
+        columns, rows, angle = self._optics_of(camera)
+        return angle if columns >= rows else 2 * math.atan(math.tan(angle / 2) * rows / columns)
 
     def _control_mode(self, joint: int) -> int:
         if self._edits.callback_joints.get(joint, self._world.is_driven_by_callback(joint)):
