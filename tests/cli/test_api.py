@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """bubblesim api."""
 
+import re
+
 import pytest
 
 from bubblesim.scripting.api.functions import MODULES, functions
@@ -12,6 +14,7 @@ from bubblesim.scripting.api.sim import remote_api_module, sim_module  # noqa: F
 from bubblesim.scripting.api.ui import ui_module  # noqa: F401  # registers modules
 from bubblesim.scripting.api.vision import vision_module  # noqa: F401  # registers modules
 from cli_support import bubblesim
+from ros_support import REPOSITORY
 
 
 def test_all_functions_are_listed() -> None:
@@ -77,3 +80,15 @@ def test_each_difference_is_a_clause() -> None:
             if function.differs:
                 assert "; here" in function.differs, f"{module}.{function.name}"
                 assert not function.differs.endswith(".")
+
+
+def test_functions_that_the_page_names_as_different_state_how() -> None:
+    page = (REPOSITORY / "docs/coming_from_coppeliasim.md").read_text()
+    table = page.partition("## What differs")[2].partition("\n## ")[0]
+    known = {f"{module}.{function.name}": function for module in MODULES for function in functions(MODULES[module])}
+    left = [row.split("|")[1] for row in table.splitlines() if row.startswith("|")]
+    names = [name for cell in left for name in re.findall(r"`((?:sim\w*\.)?[a-z]\w+)`", cell)]
+    named = [name if "." in name else f"sim.{name}" for name in names]
+    found = [name for name in named if name in known]
+    assert len(found) > 5
+    assert [name for name in found if not known[name].differs] == []

@@ -15,10 +15,12 @@ _NO_SERIAL = "it uses a serial port; here scripts open none"
 class AcceptedFunctions(LogFunctions):
     """Objects that scripts cannot make here are dummies with a pose and a name; a warning states it once."""
 
+    @differs("it makes a sensor that connects bodies and measures; here it is a dummy: sensors are made in files")
     def createForceSensor(self, options: int, integers: Any = None, floats: Any = None, more: Any = None) -> int:
         """Return a dummy in place of a force sensor: sensors are made in the scene's file."""
         return self._stand_in_for("Force_sensor", "createForceSensor", "it is a dummy, which measures nothing")
 
+    @differs("linked dummies close loops of the physics; here those of files do, of scripts not")
     def setLinkDummy(self, dummy: Handle, other: int) -> int:
         """Keep which dummy is linked to another one; -1: none. Return 1."""
         first = self._resolve(dummy)

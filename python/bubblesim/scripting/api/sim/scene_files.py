@@ -23,6 +23,9 @@ class SceneFileFunctions(CreatedSensorFunctions):
     A Python script, and a client of a node with --remote-trusted, can also give the path of an .sdf, .ttt or .ttm file;
     an .sdf file of the same name beside it comes first."""
 
+    @differs(
+        "it loads any file, also for scripts; here the scene of that name in the folders of scenes, for remote clients"
+    )
     @for_remote_only
     def loadScene(self, file: str) -> Any:
         """Stop the simulation and load another scene; return 1. An empty name loads the empty scene.
@@ -33,6 +36,7 @@ class SceneFileFunctions(CreatedSensorFunctions):
         """
         raise RuntimeError("sim.loadScene needs a running node")
 
+    @differs("scripts may call it; here remote clients alone")
     @for_remote_only
     def closeScene(self) -> Any:
         """Stop the simulation and go on with an empty scene, a ground plane; return 1. For remote clients only."""
