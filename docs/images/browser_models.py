@@ -28,6 +28,11 @@ VIEWS: tuple[tuple[str, Sequence[float], float, Sequence[float]], ...] = (
     ("Franka", (0.4, 0.3, 0.0, -1.9, 0.0, 2.2, 0.8, 0.03, 0.03), 2.0, (0.25, 0.1, 0.4)),
     ("RG2", (0.04, 0.04), 0.6, (0.1, 0, 0.06)),
     ("youBot", (0, 0, 0, 0, 0.5, 0.6, 0.9, 0.6, 0.0), 1.7, (0.15, 0, 0.2)),
+    ("dr12", (), 0.55, (0.01, 0, 0.045)),
+    ("dr20", (), 0.75, (0, 0, 0.1)),
+    ("Kilobot", (), 0.11, (0, 0, 0.012)),
+    ("BarrettHand", (0.6, 0.6, 0.2, 0.6, 0.6, 0.2, 0.6, 0.2), 0.6, (0.1, 0, 0.05)),
+    ("conveyor", (), 2.6, (0, 0, 0.1)),
     ("Bill", (0.2, -0.5, 0.3, 0.2, 0.4, -0.4, 0.3, 0.5, 0.0, -0.4, -0.5), 3.9, (0, 0, 0.9)),
 )
 
@@ -53,6 +58,7 @@ def main() -> None:
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent
     pictures = [cv2.resize(view(*each), (320, 240), interpolation=cv2.INTER_AREA) for each in VIEWS]
     framed = [cv2.copyMakeBorder(each, 3, 3, 3, 3, cv2.BORDER_CONSTANT, value=(255, 255, 255)) for each in pictures]
+    framed += [np.full_like(framed[0], 255)] * (-len(framed) % 4)
     rows = [np.hstack(framed[i : i + 4]) for i in range(0, len(framed), 4)]
     cv2.imwrite(str(folder / "browser_models.png"), np.vstack(rows)[:, :, ::-1])
 

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "bubblesim/scene_tree.hpp"
 #include "bubblesim/world_part.hpp"
@@ -12,8 +13,14 @@ namespace bubblesim {
 
 class Device;
 
-/// Returns whether two links whose shapes touch resist each other; static links come second. Must not throw.
-using ContactFilter = std::function<bool(ObjectId first, ObjectId second)>;
+/// What becomes of the contacts of two shapes in one substep.
+struct ContactAnswer {
+  bool resist = true;              ///< whether the shapes resist each other
+  std::optional<double> friction;  ///< coefficient in place of the surfaces' own, >= 0
+};
+
+/// Decides about two links whose shapes touch; static links come second. Must not throw.
+using ContactFilter = std::function<ContactAnswer(ObjectId first, ObjectId second)>;
 
 class WorldDevices : public WorldPart {
  public:

@@ -70,6 +70,17 @@ def test_without_a_filter_the_contacts_are_those_of_before() -> None:
     assert filtered.state_hash() == alone.state_hash()
 
 
+def test_a_contact_filter_gives_pairs_their_friction() -> None:
+    places = []
+    for friction in (0.0, 1.0, None, -1.0):
+        simulation = bubblesim.Simulation("ball")
+        _core.set_contact_filter(simulation.world, lambda first, second, friction=friction: (True, friction))
+        simulation.step(2 * HALF_SECOND)
+        places.append(simulation.world.pose(simulation.object("/Ball").handle)[0])
+    assert places[0] != pytest.approx(places[1], abs=0.01)  # without friction it slides down the ramp, with it rolls
+    assert places[2] == places[3]  # the surfaces' own
+
+
 def test_a_joint_that_was_added_moves_what_is_below_it() -> None:
     world = bubblesim.Simulation("ball").world
     joint, below = world.add_joint("hinge", "revolute"), world.add_dummy("tip")

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """bubblesim api."""
 
+import re
+
 import pytest
 
 from bubblesim.scripting.api.functions import MODULES, functions
@@ -12,6 +14,7 @@ from bubblesim.scripting.api.sim import remote_api_module, sim_module  # noqa: F
 from bubblesim.scripting.api.ui import ui_module  # noqa: F401  # registers modules
 from bubblesim.scripting.api.vision import vision_module  # noqa: F401  # registers modules
 from cli_support import bubblesim
+from ros_support import REPOSITORY
 
 
 def test_all_functions_are_listed() -> None:
@@ -61,3 +64,31 @@ def test_an_unknown_name_brings_similar_ones() -> None:
     run = bubblesim("api", "getObjekt")
     assert (run.returncode, run.stdout) == (2, "")
     assert "there is no script function 'getObjekt'; did you mean getObject" in run.stderr
+
+
+def test_how_a_function_differs_from_coppeliasims_is_stated() -> None:
+    refusing = bubblesim("api", "sim.setObjectParent").stdout
+    assert "In CoppeliaSim, it changes any object; here an object held by physics or the file stays" in refusing
+    assert "In CoppeliaSim, the result is -1 before the first step" in bubblesim("api", "readProximitySensor").stdout
+    assert "In CoppeliaSim, it has an effect; here the call is accepted" in bubblesim("api", "sim.addBanner").stdout
+    assert "In CoppeliaSim" not in bubblesim("api", "sim.getObjectPosition").stdout
+
+
+def test_each_difference_is_a_clause() -> None:
+    for module, api in MODULES.items():
+        for function in functions(api):
+            if function.differs:
+                assert "; here" in function.differs, f"{module}.{function.name}"
+                assert not function.differs.endswith(".")
+
+
+def test_functions_that_the_page_names_as_different_state_how() -> None:
+    page = (REPOSITORY / "docs/coming_from_coppeliasim.md").read_text()
+    table = page.partition("## What differs")[2].partition("\n## ")[0]
+    known = {f"{module}.{function.name}": function for module in MODULES for function in functions(MODULES[module])}
+    left = [row.split("|")[1] for row in table.splitlines() if row.startswith("|")]
+    names = [name for cell in left for name in re.findall(r"`((?:sim\w*\.)?[a-z]\w+)`", cell)]
+    named = [name if "." in name else f"sim.{name}" for name in names]
+    found = [name for name in named if name in known]
+    assert len(found) > 5
+    assert [name for name in found if not known[name].differs] == []

@@ -175,3 +175,32 @@ def sysCall_cleanup():
     assert sim.getObjectPosition(self.cube)[1] > 0.4 and sim.getObjectPosition(self.cube)[2] > 0.4
 """
     script(tmp_path, body, rest=rest, until=4)
+
+
+def test_the_fingers_of_the_barrett_hand_hold_a_ball_that_is_pulled(tmp_path: Path) -> None:
+    body = """
+sim.removeModel(sim.getObject('/PioneerP3DX'))
+hand = sim.loadModel('BarrettHand.ttm')
+sim.setObjectPosition(hand, [0, 0, 0.5])
+sim.setObjectOrientation(hand, [0, 0, 0])  # it looks up
+sim.setObjectInt32Param(hand, sim.shapeintparam_static, 1)
+self.ball = sim.createPureShape(1, 8, [0.07, 0.07, 0.07], 0.1)
+sim.setObjectPosition(self.ball, [0, 0, 0.5 + 0.083 + 0.035])  # on the palm
+self.knuckles = [sim.getObject(f'/BarrettHand/jointB_{i}') for i in range(3)]
+self.tips = [sim.getObject(f'/BarrettHand/jointC_{i}') for i in range(3)]
+for knuckle in self.knuckles:
+    sim.setJointTargetVelocity(knuckle, 1)
+"""
+    rest = """
+def sysCall_actuation():
+    if sim.getSimulationTime() > 2:
+        sim.addForceAndTorque(self.ball, [0, 0, 4])  # four times its weight
+
+def sysCall_cleanup():
+    x, y, z = sim.getObjectPosition(self.ball)
+    assert math.hypot(x, y) < 0.02 and abs(z - 0.618) < 0.03, (x, y, z)
+    for knuckle, tip in zip(self.knuckles, self.tips):
+        assert sim.getJointPosition(knuckle) < 0.6  # the ball stops it
+        assert abs(sim.getJointPosition(tip) - sim.getJointPosition(knuckle) / 3) < 0.03
+"""
+    script(tmp_path, body, rest=rest, until=4)

@@ -24,6 +24,11 @@ OBJECTS = {  # of the programs that people write for them
     "RG2": "openCloseJoint attachPoint attachProxSensor",
     "youBot": "rollingJoint_fl rollingJoint_rl rollingJoint_rr rollingJoint_fr "
     "youBotArmJoint0/youBotArmJoint1/youBotArmJoint2 youBotArmJoint4 youBotGripperJoint1 youBotGripperJoint2",
+    "dr12": "leftJoint_ rightJoint_ bumperForceSensor_ sonar",
+    "dr20": "leftWheelJoint_ rightWheelJoint_ infraredSensor1_ infraredSensor6_ ultrasonicSensor_",
+    "Kilobot": "Revolute_jointLeftLeg Revolute_jointRightLeg Proximity_sensor Vision_sensor BatHold MsgSensor",
+    "BarrettHand": "jointA_0/spread_0/jointB_0/proximal_0/jointC_0 jointA_2 jointB_1 jointC_2 attachPoint",
+    "conveyor": "drive/forwarder end",
     "Bill": "goalDummy leftLegJoint rightKneeJoint leftAnkleJoint rightShoulderJoint leftElbowJoint rightHand_tip neck",
 }
 FILES = [(file, model.object) for model in BROWSER_MODELS for file in model.files]
@@ -88,9 +93,12 @@ for i, file in enumerate({files}):
 
 def test_old_names_find_the_parts(tmp_path: Path) -> None:
     body = """
-for file in ('e-puck', 'Quadricopter', 'UR5', 'KUKA YouBot', 'Standing Bill'):
+files = 'e-puck, Quadricopter, UR5, KUKA YouBot, Standing Bill, dr12, dr20, Kilobot, BarrettHand, conveyor'
+for file in files.split(', '):
     sim.loadModel(file + '.ttm')
-old_names = 'ePuck_leftJoint ePuck_proxSensor8 Quadricopter_target UR5_joint6 rollingJoint_fl Bill_goalDummy'
+old_names = 'ePuck_leftJoint ePuck_proxSensor8 Quadricopter_target UR5_joint6 rollingJoint_fl Bill_goalDummy '
+old_names += 'dr12_leftJoint_ dr20_leftWheelJoint_ Kilobot_Revolute_jointLeftLeg BarrettHand_jointA_0 '
+old_names += 'ConveyorBelt_forwarder'
 for name in old_names.split():
     assert sim.isHandle(sim.getObjectHandle(name))
 """

@@ -13,7 +13,7 @@ from node_support import in_init, run_script
 from ros_support import REPOSITORY
 
 
-@pytest.mark.parametrize("name", ["ePuck", "LineTracer", "bubbleRob", "youBot", "Bill"])
+@pytest.mark.parametrize("name", ["ePuck", "LineTracer", "bubbleRob", "dr12", "dr20", "Kilobot", "youBot", "Bill"])
 def test_a_model_stands_still(name: str) -> None:
     simulation = placed(name)
     base = simulation.object(f"/{name}")
@@ -28,6 +28,9 @@ WHEELS = {  # motors, their speed in rad/s, radius and distance of the wheels an
     "ePuck": (("leftJoint", "rightJoint"), 4.0, 0.0205, 0.053, 0.0),
     "LineTracer": (("DynamicLeftJoint", "DynamicRightJoint"), 5.0, 0.027, 0.119, 0.0),
     "bubbleRob": (("leftMotor", "rightMotor"), 3.0, 0.04, 0.2, 0.05),
+    "dr12": (("leftJoint_", "rightJoint_"), 4.0, 0.0425, 0.17, 0.0),
+    "dr20": (("leftWheelJoint_", "rightWheelJoint_"), 4.0, 0.0425, 0.254, 0.0),
+    "Kilobot": (("Revolute_jointLeftLeg", "Revolute_jointRightLeg"), 2.0, 0.005, 0.025, 0.0),
 }
 
 
@@ -109,6 +112,54 @@ def sysCall_cleanup():
     assert abs(roll) + abs(pitch) + abs(heading - 1) < 0.02
 """
     script(tmp_path, body, rest=rest, until=10)
+
+
+def test_the_conveyor_moves_what_lies_on_it_at_the_speed_of_its_belt(tmp_path: Path) -> None:
+    body = """
+sim.removeModel(sim.getObject('/PioneerP3DX'))
+self.conveyor = sim.loadModel('models/equipment/conveyor belts/conveyor.ttm')
+sim.setObjectPosition(self.conveyor, [1, 2, 0])
+self.box = sim.createPureShape(0, 8, [0.1, 0.1, 0.1], 0.5)
+sim.setObjectPosition(self.box, [0.6, 2, 0.33])
+self.places = []
+"""
+    rest = """
+def sysCall_actuation():
+    if abs(sim.getSimulationTime() - 2) < 0.01:
+        sim.writeCustomTableData(self.conveyor, '__ctrl__', {'vel': 0.3})
+
+def sysCall_sensing():
+    self.places.append(sim.getObjectPosition(self.box))
+
+def sysCall_cleanup():
+    assert abs(self.places[35][0] - self.places[15][0] - 0.1) < 1e-3, self.places[::5]
+    assert abs(self.places[55][0] - self.places[45][0] - 0.15) < 1e-3, self.places[::5]
+    assert max(abs(y - 2) for _, y, _ in self.places) < 1e-3 and self.places[55][2] > 0.32
+    assert abs(sim.readCustomTableData(self.conveyor, '__state__')['vel'] - 0.3) < 1e-9
+    assert math.dist(sim.getObjectPosition(self.conveyor), [1, 2, 0]) < 1e-6
+"""
+    script(tmp_path, body, rest=rest, until=3)
+
+
+def test_the_bumper_of_the_dr12_turns_it_away_from_a_wall(tmp_path: Path) -> None:
+    body = """
+sim.removeModel(sim.getObject('/PioneerP3DX'))
+self.robot, wall = sim.loadModel('dr12.ttm'), sim.loadModel('80cmHighWall200cm.ttm')
+sim.setObjectPosition(wall, [0.6, 0, 0.4])
+sim.setObjectOrientation(wall, [0, 0, math.pi / 2])
+self.places = []
+"""
+    rest = """
+def sysCall_sensing():
+    self.places.append((*sim.getObjectPosition(self.robot)[:2], sim.getObjectOrientation(self.robot)[2]))
+
+def sysCall_cleanup():
+    nearest = max(x for x, _, _ in self.places)
+    last = self.places[-1]
+    assert 0.6 - 0.05 - 0.13 < nearest < 0.6 - 0.05 - 0.11, nearest
+    assert last[0] < nearest - 0.05 and abs(last[2]) > 0.3, last
+"""
+    script(tmp_path, body, rest=rest, until=4.8)
 
 
 def test_the_youbot_drives_ahead_sideways_and_turns(tmp_path: Path) -> None:

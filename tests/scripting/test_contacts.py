@@ -36,3 +36,23 @@ def test_points_are_listed_with_the_object_that_was_asked_for_first(tmp_path: Pa
     assert reported[0] == "ball\tBall\tFloor\t{true, true}\t3"
     assert reported[2] == "floor\tFloor\tBall\t{false, false}\t3"
     assert [reported[1], reported[3], reported[5]] == ["ball\t1", "floor\t1", "all\t1"]
+
+
+def test_a_sphere_in_the_middle_of_a_cylinder_comes_out(tmp_path: Path) -> None:
+    code = """
+        function sysCall_init()
+            shapes = {}
+            for kind = 1, 2 do
+                shapes[kind] = sim.createPureShape(kind, 8, {0.1, 0.1, 0.1}, 1)
+                sim.setObjectPosition(shapes[kind], -1, {1, 1, 0.05})
+            end
+        end
+        function sysCall_cleanup()
+            for _, shape in ipairs(shapes) do
+                local place = sim.getObjectPosition(shape, -1)
+                print(math.abs(place[1] - 1) < 0.01 and place[3] > 0.04 and place[3] < 0.2)
+            end
+        end
+    """
+    run = run_script(tmp_path, code, "--strict", name="script.lua", scene="p3dx_floor", target="/Floor", until=0.5)
+    assert (run.stderr, run.stdout) == ("", "true\ntrue\n")

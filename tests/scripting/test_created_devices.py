@@ -110,6 +110,43 @@ assert 'pixels' in refused(sim.createVisionSensor, 2, [0, 1], [0.01, 10, 1])
     check(tmp_path, body)
 
 
+def test_a_created_camera_gets_another_resolution(tmp_path: Path) -> None:
+    body = """
+robot = sim.getObject('/Tricycle')
+sim.setObjectPosition(robot, [20, 0, 5])
+eye = sim.createVisionSensor(2, [64, 32, 0, 0], [0.01, 10, math.pi / 2, 0.1, 0.1, 0.1, 0, 0, 0, 0, 0])
+sim.setObjectPosition(eye, [20, 0, 50])
+sim.setObjectParent(eye, robot, True)
+sim.setObjectAlias(eye, 'eye')
+sim.setObjectInt32Param(eye, sim.visionintparam_resolution_x, 16)
+sim.setObjectInt32Param(eye, sim.visionintparam_resolution_y, 48)
+assert sim.getVisionSensorRes(eye) == [16, 48] and sim.getObjectInt32Param(eye, sim.visionintparam_resolution_x) == 16
+sim.handleVisionSensor(eye)
+assert len(sim.getVisionSensorImg(eye)[0]) == 16 * 48 * 3
+# The larger side sees 90 degrees.
+near(math.tan(sim.getObjectFloatParam(eye, sim.visionfloatparam_perspective_angle) / 2), 1, 1e-6)
+assert sim.getObject('/Tricycle/eye') == eye and sim.getObjectParent(eye) == robot
+near(sim.getObjectPosition(eye), [20, 0, 50], 1e-6)
+sim.setIntArray2Property(eye, 'resolution', [20, 10])
+assert sim.getVisionSensorRes(eye) == [20, 10]
+assert '1 to 4096 pixels' in refused(sim.setObjectInt32Param, eye, sim.visionintparam_resolution_x, 0)
+sim.removeObjects([eye])
+assert not sim.isHandle(eye)
+"""
+    check(tmp_path, body)
+
+
+def test_a_camera_of_a_file_keeps_its_resolution(tmp_path: Path) -> None:
+    body = """
+eye = sim.loadModel('e-puck.ttm')
+eye = sim.getObject('/ePuck/camera')
+before = sim.getVisionSensorRes(eye)
+assert 'has the resolution of its file' in warned(sim.setObjectInt32Param, eye, sim.visionintparam_resolution_x, 5)
+assert sim.getVisionSensorRes(eye) == before
+"""
+    check(tmp_path, body)
+
+
 def test_a_line_of_words_has_its_height_and_is_seen(tmp_path: Path) -> None:
     body = """
 short, long = sim.generateTextShape('I', [1, 0, 0], 0.5, True), sim.generateTextShape('IIII', [1, 0, 0], 0.5, True)

@@ -114,3 +114,14 @@ assert sim.checkOctreePointOccupancy(tree, 0, [1.01, 0.01, 0.01])[0] == 1
 assert sim.removeVoxelsFromOctree(tree, 1, [0.05, 0.05, 0.05]) == 1 and sim.removeVoxelsFromOctree(tree, 0) == 0
 """
     check(tmp_path, in_init(body))
+
+
+def test_a_mesh_file_is_a_shape_or_its_triangles(tmp_path: Path) -> None:
+    file = tmp_path / "corner.obj"
+    file.write_text("v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+    body = f"""
+vertices, indices = sim.importMesh(0, '{file}')
+assert sorted(vertices[0][i : i + 3] for i in range(0, len(vertices[0]), 3))[-1] == [1, 0, 0] and len(indices[0]) == 12
+assert near(sim.getShapeBB(sim.importShape(0, '{file}', 0, 0, 0.5)), [0.5, 1, 1.5], 1e-4)
+"""
+    check(tmp_path, in_init(body))

@@ -86,3 +86,20 @@ near(sim.getShapeMass(a), 3000)
 near(sim.getShapeBB(sim.getObject('.')), [0.2, 0.2, 0.2])
 """
     check(tmp_path, body)
+
+
+def test_a_place_where_two_shapes_overlap_is_found(tmp_path: Path) -> None:
+    body = """
+a = sim.createPureShape(0, 8 + 16, [1, 1, 1], 1)
+b = sim.createPureShape(0, 8 + 16, [1, 1, 1], 1)
+sim.setObjectPosition(a, [10, 10, 5])
+sim.setObjectPosition(b, [10.8, 10, 5])
+result, segment = sim.checkCollisionEx(a, b)
+assert result == 1 and len(segment) == 6
+assert all(9.5 - 1e-6 <= x <= 11.3 + 1e-6 for x in segment[::3])
+sim.setObjectPosition(b, [12, 10, 5])
+assert sim.checkCollisionEx(a, b)[0] == 0
+made = sim.createCollection(0)
+assert sim.emptyCollection(made) is not None
+"""
+    check(tmp_path, body)

@@ -199,3 +199,30 @@ def test_scripts_for_the_run_as_a_whole_begin_first_and_end_last(tmp_path: Path)
         "after",
         "cleanup of the first",
     ]
+
+
+def test_contact_callbacks_give_pairs_of_shapes_their_friction(tmp_path: Path) -> None:
+    code = """
+        function sysCall_init()
+            boxes = {}
+            for i, mu in ipairs{0.2, 0.5} do
+                local box = sim.createPureShape(0, 8, {0.2, 0.2, 0.1}, 1)
+                sim.setObjectPosition(box, -1, {-2, 2 * i, 0.05})
+                sim.setObjectFloatParam(box, sim.shapefloatparam_init_velocity_x, 2)
+                boxes[box] = mu
+            end
+        end
+        function sysCall_contact(data)
+            local mu = boxes[data.handle1] or boxes[data.handle2]
+            if mu then return {ignoreContact = false, collisionResponse = true, mu = mu, mu2 = mu} end
+        end
+        function sysCall_cleanup()
+            for box, mu in pairs(boxes) do print(mu, sim.getObjectPosition(box, -1)[1] + 2) end
+        end
+    """
+    run = run_script(tmp_path, code, "--strict", name="script.lua", scene="p3dx_floor", target="/Floor", until=2.0)
+    assert run.stderr == ""
+    for line in run.stdout.splitlines():
+        mu, way = map(float, line.split())
+        assert way == pytest.approx(2**2 / (2 * mu * 9.81), rel=0.03)  # v^2 / (2 mu g)
+    assert len(run.stdout.splitlines()) == 2

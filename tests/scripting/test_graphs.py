@@ -169,3 +169,20 @@ end
     run = run_script(tmp_path, code, "--strict", name="script.lua")
     assert (run.stderr, run.returncode) == ("", 0)
     assert "seen" in run.stdout
+
+
+def test_a_graph_records_when_it_is_handled(tmp_path: Path) -> None:
+    check(
+        tmp_path,
+        """
+def sysCall_init():
+    stream = sim.addGraphStream(sim.handle_self, 'height', 'm')
+    for time in (1.0, 2.0):
+        sim.setGraphStreamValue(sim.handle_self, stream, 10 * time)
+        sim.handleGraph(sim.handle_self, time)
+    _, _, _, x, y, _, _, _ = sim.getGraphCurve(sim.handle_self, 0, 0)
+    near(x, [1, 2])
+    near(y, [10, 20])
+    assert sim.getGraphInfo(sim.handle_self)[0] == 0
+""",
+    )

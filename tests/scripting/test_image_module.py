@@ -136,3 +136,32 @@ assert numbers(simIM.bitwiseXor(image, image)) == [0, 0] and numbers(simIM.bitwi
 assert 'formats with integers' in refused(simIM.bitwiseNot, simIM.convert(image, simIM.fmt_32FC1))
 """
     check(tmp_path, body)
+
+
+def test_operations_with_numbers_and_bits(tmp_path: Path) -> None:
+    body = """
+one, two = simIM.create(1, 1, simIM.fmt_8UC1, 12), simIM.create(1, 1, simIM.fmt_8UC1, 10)
+value = lambda image: simIM.get(image, [0, 0])[0]
+assert value(simIM.bitwiseAnd(one, two)) == 8
+assert value(simIM.bitwiseOrK(one, [3])) == 15 and value(simIM.bitwiseXorK(one, [10])) == 6
+assert value(simIM.absdiffK(one, [20])) == 8 and value(simIM.subtractK(one, [5])) == 7
+assert value(simIM.subtractK(one, [20])) == 0
+assert value(simIM.greaterThanK(one, [11])) == 255 and value(simIM.greaterThanK(one, [12])) == 0
+assert value(simIM.lessThanK(one, [13])) == 255 and value(simIM.lessThanK(one, [12])) == 0
+assert simIM.get(simIM.gray2rgb(one), [0, 0]) == [12, 12, 12]
+assert simIM.writeToTexture(one, 0) is None
+"""
+    check(tmp_path, body)
+
+
+def test_lines_areas_and_arcs_are_drawn(tmp_path: Path) -> None:
+    body = """
+image = simIM.create(9, 9)
+simIM.polylines(image, [1, 1, 7, 1, 7, 7], [3], False, [255, 0, 0], 1)
+assert simIM.get(image, [4, 1]) == simIM.get(image, [7, 4]) == [255, 0, 0] and simIM.get(image, [4, 4]) == [0, 0, 0]
+simIM.fillPoly(image, [2, 2, 6, 2, 6, 6, 2, 6], [4], [0, 0], [0, 255, 0])
+assert simIM.get(image, [4, 4]) == [0, 255, 0] and simIM.get(image, [0, 8]) == [0, 0, 0]
+simIM.ellipse(image, [4, 4], [3, 3], 0, 0, 360, [0, 0, 255], 1)
+assert simIM.get(image, [4, 1]) == simIM.get(image, [1, 4]) == [0, 0, 255]
+"""
+    check(tmp_path, body)

@@ -154,3 +154,50 @@ def test_impossible_motions_are_errors(tmp_path: Path) -> None:
     first, second = run.stdout.splitlines()
     assert first == "1 axes need 3 numbers, found 2"
     assert second.startswith("there is no such motion: ")
+
+
+def test_motions_of_older_versions_end_where_they_are_sent(tmp_path: Path) -> None:
+    code = """
+        import json
+        def sysCall_thread():
+            sim.setStepping(True)
+            joint, mover, goal = sim.createJoint(sim.joint_revolute), sim.createDummy(0.1), sim.createDummy(0.1)
+            sim.moveToJointPositions([joint], [0.4], 2)
+            sim.moveToPosition(mover, -1, [0.2, 0, 0], [0, 0, 0.5], 1)
+            first = sim.getObjectPose(mover)
+            sim.setObjectPose(goal, [0, 0.2, 0, 0, 0, 0, 1])
+            sim.moveToObject(mover, goal, 3, 1, 1)
+            print(json.dumps([sim.getJointPosition(joint), first, sim.getObjectPose(mover)]))
+    """
+    joint, first, last = results(tmp_path, code)
+    assert joint == pytest.approx(0.4)
+    assert first == pytest.approx([0.2, 0, 0, 0, 0, math.sin(0.25), math.cos(0.25)])
+    assert last == pytest.approx([0, 0.2, 0, 0, 0, 0, 1], abs=1e-9)
+
+
+def test_a_prepared_motion_is_advanced_step_by_step(tmp_path: Path) -> None:
+    code = """
+        import json
+        def sysCall_init():
+            rest = [0, 0, 0]
+            motion = sim.rmlPos(1, 0.05, -1, rest, [1, 2, 40], [1], [0.5, 0])
+            time = 0
+            result = 0
+            while result == 0:
+                result, state, _ = sim.rmlStep(motion, 0.05)
+                time += 0.05
+            sim.rmlRemove(motion)
+            speed = sim.ruckigVel(1, 0.05, -1, rest, [2, 40], [1], [1])
+            count, done = 0, 0
+            while done == 0:
+                done, velocity, _ = sim.ruckigStep(speed, 0.05)
+                count += 1
+            sim.ruckigRemove(speed)
+            print(json.dumps([result, time, state, velocity, count]))
+    """
+    result, time, state, velocity, count = results(tmp_path, code)
+    assert (result, state[0]) == (1, pytest.approx(0.5))
+    # It does not get to the largest velocity: 2 sqrt(s / a) without the limit of the jerk, a / j more with it.
+    assert 2 * math.sqrt(0.5 / 2) - 0.05 <= time <= 2 * math.sqrt(0.5 / 2) + 2 * 2 / 40 + 0.05
+    assert velocity[1] == pytest.approx(1)
+    assert count in (11, 12)  # v / a + a / j = 0.55 s, the end of a step

@@ -175,3 +175,21 @@ def test_remote_programs_plan_paths(tmp_path: Path) -> None:
         path = planner.getPath(task)
         assert path[:2] == pytest.approx([19, 0])
         assert path[-2:] == pytest.approx([21, 0])
+
+
+def test_one_of_several_goals_is_reached_and_written(tmp_path: Path) -> None:
+    body = f"""{ROOM}{SEARCH}
+simOMPL.setVerboseLevel(task, 0)
+simOMPL.setGoalStates(task, [[20, 0]])  # in the wall
+simOMPL.addGoalState(task, [19, 2])
+assert simOMPL.solve(task, 20)
+assert simOMPL.hasExactSolution(task) and not simOMPL.hasApproximateSolution(task)
+path = simOMPL.getPath(task)
+assert math.dist(path[-2:], (19, 2)) < 1e-6
+simOMPL.writeState(task, path[-2:])
+assert math.dist(sim.getObjectPosition(disc), (19, 2, 50)) < 1e-6
+simOMPL.destroyTask(task)
+simOMPL.destroyStateSpace(space)
+assert 'task' in refused(simOMPL.solve, task, 1)
+"""
+    check(tmp_path, body)

@@ -88,3 +88,23 @@ def test_an_object_follows_a_path(tmp_path: Path) -> None:
 def test_what_is_no_path_is_an_error(tmp_path: Path) -> None:
     run = run_script(tmp_path, "def sysCall_init():\n    sim.getPathLength(sim.getObject('.'))\n", "--strict")
     assert "/Ball is not a path: it has no custom data 'PATH'" in run.stderr
+
+
+def test_old_paths_have_places_by_their_share_of_the_length(tmp_path: Path) -> None:
+    code = f"""
+        import json
+        def sysCall_init():
+            path = sim.createPath({CORNER}, 0, 31, 0)
+            sim.setPathTargetNominalVelocity(path, 0.5)
+            sim.setPathPosition(path, 1.25)
+            share = sim.getClosestPositionOnPath(path, [1.5, -1, 0])
+            angles = sim.getOrientationOnPath(path, 1)
+            old = sim.createPath(1)
+            sim.insertPathCtrlPoints(old, 0, 0, 2, [0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 3, 0, 0, 0, 0, 1, 0, 0, 0, 0])
+            print(json.dumps([sim.getPathPosition(path), share, angles, sim.getPathLength(old)]))
+    """
+    position, share, angles, length = results(tmp_path, code)
+    assert position == 1.25
+    assert share == pytest.approx(1.5 / 3)
+    assert angles == pytest.approx([0, 0, math.pi / 2])
+    assert length == pytest.approx(3)

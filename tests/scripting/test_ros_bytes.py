@@ -37,3 +37,76 @@ def test_bytes_of_messages_are_tables_in_lua_unless_a_script_wants_strings(rosco
         wait_until(lambda: "table\ttable\t2" in node.output, "the table")
         assert "string\tstring\t3" in node.output
         assert "python b'\\x01\\x02\\x03'" in node.output
+
+
+SERVICES = """
+function sysCall_init()
+    server = simROS.advertiseService('/keep', 'bubblesim_msgs/RestoreState', 'keep')
+    other = simROS.advertiseService('/give', 'bubblesim_msgs/SaveState', 'give')
+    restore = simROS.serviceClient('/keep', 'bubblesim_msgs/RestoreState')
+    save = simROS.serviceClient('/give', 'bubblesim_msgs/SaveState')
+end
+function keep(request) print('request', type(request.state), #request.state) return {success = true} end
+function give(request) return {success = true, state = '\\1\\2\\3'} end
+function exchange()
+    simROS.call(restore, {state = {4, 5}})
+    local response = simROS.call(save)
+    print('response', type(response.state), #response.state)
+end
+function sysCall_actuation()
+    if done then return end
+    done = true
+    exchange()
+    simROS.serviceServerTreatUInt8ArrayAsString(server)
+    simROS.serviceClientTreatUInt8ArrayAsString(save)
+    exchange()
+end
+"""
+
+
+def test_so_are_those_of_services(roscore: RosCore, tmp_path: Path) -> None:
+    option = f"/Tricycle={write(tmp_path / 'script.lua', SERVICES)}"
+    with Node(roscore.env, tmp_path / "log", "tricycle", "--child-script", option) as node:
+        wait_until(lambda: node.output.count("response") == 2, "the responses")
+        lines = [line.split("] ")[-1] for line in node.output.splitlines() if "request" in line or "response" in line]
+        assert lines == ["request\ttable\t2", "response\ttable\t3", "request\tstring\t2", "response\tstring\t3"]
+
+
+MORE = """
+local transform = {header = {stamp = 0, frame_id = 'world'}, child_frame_id = 'a',
+                   transform = {translation = {x = 1, y = 0, z = 0}, rotation = {x = 0, y = 0, z = 0, w = 1}}}
+function sysCall_init()
+    simROS.subscribe('/tf', 'tf2_msgs/TFMessage', 'placed', 10)
+    local other = simROS2.createSubscription('/bytes', 'std_msgs/UInt8MultiArray', 'received')
+    simROS2.subscriptionTreatUInt8ArrayAsString(other)
+    publisher = simROS2.createPublisher('/bytes', 'std_msgs/UInt8MultiArray')
+    local client = simROS2.createClient('/keep', 'bubblesim_msgs/RestoreState')
+    local server = simROS2.createService('/keep', 'bubblesim_msgs/RestoreState', 'keep')
+    simROS2.clientTreatUInt8ArrayAsString(client)
+    simROS2.serviceTreatUInt8ArrayAsString(server)
+    simROS2.call(client, {state = 'abc'})
+    local images = simROS2.imageTransportCreateSubscription('/image', 'seen')
+    simROS2.imageTransportShutdownSubscription(images)
+    print('shut down', pcall(simROS2.imageTransportShutdownSubscription, images))
+end
+function sysCall_actuation()
+    transform.header.stamp = simROS.getTime()
+    simROS.sendTransforms({transform})
+    simROS2.sendTransforms({})
+    simROS2.publish(publisher, {data = {7, 8}})
+    simROS2.spinSome()
+end
+function placed(message)
+    if not a and #message.transforms > 0 then print('placed', message.transforms[1].child_frame_id) a = true end
+end
+function received(message) if not b then print('received', type(message.data)) end b = true end
+function keep(request) print('kept', request.state) return {success = true} end
+function seen() end
+"""
+
+
+def test_the_names_of_ros_2_do_the_same(roscore: RosCore, tmp_path: Path) -> None:
+    option = f"/Tricycle={write(tmp_path / 'script.lua', MORE)}"
+    with Node(roscore.env, tmp_path / "log", "tricycle", "--child-script", option) as node:
+        for line in ("kept\tabc", "received\tstring", "placed\ta", "shut down\tfalse"):
+            wait_until(lambda line=line: line in node.output, line)  # type: ignore[misc]

@@ -3,7 +3,7 @@
 
 from pathlib import Path
 
-from node_support import run_sim, write
+from node_support import run_script, run_sim, write
 
 SCENE = """<?xml version="1.0"?>
 <sdf version="1.9" xmlns:bubblesim="https://bubblesim"><world name="w">
@@ -44,3 +44,16 @@ def test_parameters_have_the_type_of_their_string(tmp_path: Path) -> None:
         "false\t12",
         "1\t12\ttrue",
     ]
+
+
+def test_user_parameters_are_those_of_the_objects_script(tmp_path: Path) -> None:
+    code = """
+        function sysCall_init()
+          local own = sim.getObject('.')
+          sim.setUserParameter(own, 'speed', 2.5)
+          assert(sim.getUserParameter(own, 'speed') == 2.5)
+          assert(sim.getScriptSimulationParameter(sim.handle_self, 'speed') == 2.5)
+        end
+    """
+    run = run_script(tmp_path, code, "--strict", name="script.lua")
+    assert (run.stderr, run.returncode) == ("", 0)

@@ -74,3 +74,48 @@ def test_random_numbers_follow_from_the_seed(tmp_path: Path) -> None:
         return run_script(tmp_path, code, "--strict", "--seed", seed, until=0.1).stdout
 
     assert first(1) == first(1) != first(2)
+
+
+def test_a_proximity_sensor_is_asked_with_a_threshold_or_for_points(tmp_path: Path) -> None:
+    code = """\
+        def sysCall_init():
+            sonar, floor = sim.getObject('/Sonar'), sim.getObject('/Floor')
+            result, distance, point, thing, normal = sim.checkProximitySensor(sonar, floor)
+            assert sim.checkProximitySensorEx(sonar, floor) == (result, distance, point, thing, normal)
+            assert sim.checkProximitySensorEx(sonar, floor, 0, distance + 0.01)[0] == 0
+            pose = sim.getObjectPose(sonar)
+            axis = sim.multiplyVector(pose, [1, 0, 0])
+            near = [a + 0.5 * (b - a) for a, b in zip(pose, axis)]
+            found, away, *_ = sim.checkProximitySensorEx2(sonar, near, 0, 1)
+            assert found == 1 and abs(away - 0.5) < 1e-6
+            behind = [a - 0.5 * (b - a) for a, b in zip(pose, axis)]
+            assert sim.checkProximitySensorEx2(sonar, behind, 0, 1)[0] == 0
+        """
+    run = run_script(tmp_path, code, "--strict", scene="sensors", target="/Mast", until=0.1)
+    assert (run.stderr, run.returncode) == ("", 0)
+
+
+def test_a_gps_has_the_place_of_the_scene_and_its_velocity(tmp_path: Path) -> None:
+    code = """\
+        def sysCall_sensing():
+            place, velocity = sim.readNavSat(sim.getObject('/Gps'))
+            assert len(place) == len(velocity) == 3 and abs(place[0]) <= 90 and abs(velocity[2]) < 1
+
+        def sysCall_init():
+            pass
+        """
+    run = run_script(tmp_path, code, "--strict", scene="tricycle", target="/Tricycle", until=1.5)
+    assert (run.stderr, run.returncode) == ("", 0)
+
+
+def test_a_force_sensor_of_a_script_is_a_frame_that_does_not_break(tmp_path: Path) -> None:
+    code = """\
+        def sysCall_init():
+            made = sim.createForceSensor(0, [0] * 5, [0.01] * 5)
+            assert sim.isHandle(made)
+            assert sim.readForceSensor(made)[0] == 0
+            assert sim.breakForceSensor(made) == 1
+        """
+    run = run_script(tmp_path, code, scene="tricycle", target="/Tricycle", until=0.1)
+    assert "measures nothing" in run.stderr
+    assert run.returncode == 0

@@ -99,3 +99,115 @@ def test_sensing_of_a_script_that_is_not_of_a_camera_goes_on(tmp_path: Path) -> 
     code = "function sysCall_init() end function sysCall_vision() error('never') end"
     run = run_script(tmp_path, code, "--strict", name="script.lua")
     assert (run.stderr, run.returncode) == ("", 0)
+
+
+def test_work_images_and_buffers_are_computed_pixel_by_pixel(tmp_path: Path) -> None:
+    (tmp_path / "camera.sdf").write_text(CAMERA)
+    code = """
+        import struct
+        import numpy as np
+
+        near = lambda a, b, tolerance=1e-2: np.testing.assert_allclose(a, b, atol=tolerance)
+
+        def sysCall_init():
+            eye = sim.getObject('.')
+            sim.handleVisionSensor(eye)
+            image = np.random.default_rng(1).uniform(0.2, 0.8, (32, 32, 3))
+
+            def give(pixels):
+                sim.setVisionSensorImg(eye, (np.clip(pixels, 0, 1) * 255 + 0.5).astype(np.uint8).tobytes())
+                simVision.sensorImgToWorkImg(eye)
+
+            def work():
+                simVision.workImgToSensorImg(eye)
+                return np.frombuffer(sim.getVisionSensorImg(eye)[0], np.uint8).reshape(32, 32, 3) / 255
+
+            give(image)
+            near(work(), image)
+            simVision.uniformImgToWorkImg(eye, [0.1, 0.2, 0.3])
+            near(work(), np.full((32, 32, 3), (0.1, 0.2, 0.3)))
+            simVision.workImgToBuffer1(eye)
+            give(image)
+            simVision.workImgToBuffer2(eye)
+            simVision.addBuffer1ToWorkImg(eye)
+            near(work(), np.clip(image + (0.1, 0.2, 0.3), 0, 1))
+            simVision.buffer2ToWorkImg(eye)
+            simVision.subtractBuffer1FromWorkImg(eye)
+            near(work(), np.clip(image - (0.1, 0.2, 0.3), 0, 1))
+            simVision.buffer2ToWorkImg(eye)
+            simVision.multiplyWorkImgWithBuffer1(eye)
+            near(work(), image * (0.1, 0.2, 0.3))
+            simVision.buffer1ToWorkImg(eye)
+            near(work(), np.full((32, 32, 3), (0.1, 0.2, 0.3)))
+            simVision.swapBuffers(eye)
+            simVision.swapWorkImgWithBuffer1(eye)
+            near(work(), image)
+            simVision.horizontalFlipWorkImg(eye)
+            near(work(), image[:, ::-1])
+            simVision.verticalFlipWorkImg(eye)
+            near(work(), image[::-1, ::-1])
+            simVision.rotateWorkImg(eye, np.pi)
+            near(work()[4:-4, 4:-4], image[4:-4, 4:-4])
+            give(image)
+            simVision.shiftWorkImg(eye, [0.25, 0], True)
+            near(work(), np.roll(image, 8, axis=1))
+            give(image)
+            simVision.scaleAndOffsetWorkImg(eye, [-0.2] * 3, [2] * 3, [0.1] * 3)
+            near(work(), np.clip((image - 0.2) * 2 + 0.1, 0, 1))
+            give(image)
+            simVision.normalizeWorkImg(eye)
+            found = work()
+            near([found.min(), found.max()], [0, 1])
+            give(image)
+            simVision.rectangularCutWorkImg(eye, [0.5, 0.25])
+            found = work()
+            near(found[12:20, 8:24], image[12:20, 8:24])
+            assert not found[:11].any() and not found[:, :7].any()
+            give(image)
+            simVision.circularCutWorkImg(eye, 0.5)
+            found = work()
+            near(found[16, 10:22], image[16, 10:22])
+            assert not found[:7].any() and not found[6, 6].any()
+            give(image)
+            simVision.matrix3x3OnWorkImg(eye, 1, 0.5, [0, 0, 0, 0, 1, 0, 0, 0, 0])
+            near(work(), image / 2)
+            give(image)
+            simVision.matrix5x5OnWorkImg(eye, 1, 0.5, [0] * 12 + [1] + [0] * 12)
+            near(work(), image / 2)
+            simVision.uniformImgToWorkImg(eye, [0.4] * 3)
+            simVision.sharpenWorkImg(eye)
+            near(work()[4:-4, 4:-4], 0.4)
+            bright = np.zeros((32, 32, 3))
+            bright[:, 16:] = 1
+            give(bright)
+            simVision.edgeDetectionOnWorkImg(eye, 0.5)
+            found = work()
+            assert found[:, 15:17].any() and not found[:, :14].any() and not found[:, 18:].any()
+            give(bright)
+            result, packed = simVision.binaryWorkImg(eye, 0.5)
+            assert result
+            near(struct.unpack('3f', bytes(packed))[:2], [0.5, 0.75], 0.03)
+            give(bright)
+            simVision.intensityScaleOnWorkImg(eye, [1, 0, 0], [0, 1, 0])
+            near([work()[4, 4], work()[4, 28]], [[1, 0, 0], [0, 1, 0]])
+            simVision.uniformImgToWorkImg(eye, [0] * 3)
+            simVision.workImgToBuffer1(eye)
+            give(bright)
+            result, packed = simVision.changedPixelsOnWorkImg(eye, 0.5)
+            assert result
+            simVision.sensorDepthMapToWorkImg(eye)
+            near(work()[16, 16], [(2 - 0.1) / (10 - 0.1)] * 3, 0.02)  # the wall is 2 m away
+            simVision.workImgToSensorDepthMap(eye)
+            result, packed = simVision.velodyneDataFromWorkImg(eye, [3, 3])
+            numbers = struct.unpack(f'{len(packed) // 4}f', bytes(packed))
+            near([*numbers[:2], numbers[2 + 4 * 4 + 2]], [3, 3, 2], 0.02)
+            try:
+                simVision.handleSpherical(eye)
+            except RuntimeError as error:
+                assert 'lidar' in str(error)
+            else:
+                raise AssertionError('accepted')
+    """
+    scene = str(tmp_path / "camera.sdf")
+    run = run_script(tmp_path, code, "--strict", scene=scene, target="/Camera/link/eye", until=0.05)
+    assert (run.stderr, run.returncode) == ("", 0)

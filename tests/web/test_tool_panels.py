@@ -117,6 +117,33 @@ def test_a_script_is_edited_checked_saved_and_restarted(window: ToolsPage) -> No
     window.page.wait_for_selector(".scripts .state[data-state=running]")
 
 
+def test_the_editor_explains_functions_old_names_and_callbacks_under_the_mouse(window: ToolsPage) -> None:
+    window.show("scripts")
+    window.page.wait_for_selector(".cm-content:has-text('sysCall_init')")
+    window.page.click(".cm-content")
+    window.page.keyboard.press("Control+Home")
+    lines = ("simUI.setTitle", "simGetObjectPosition", "sim.setObjectParent", "simVision.binaryWo")
+    window.page.keyboard.type("".join(f"# {line}\n" for line in lines[:3]) + lines[3])
+    window.page.wait_for_selector(".cm-tooltip-autocomplete li[aria-selected]:has-text('binaryWorkImg')")
+    window.page.keyboard.press("Escape")
+    for word, explanation in (
+        ("simUI.setTitle", "Set the title of a user interface"),
+        ("simGetObjectPosition", "simGetObjectPosition is an old name."),
+        ("sim.setObjectParent", "In CoppeliaSim, it changes any object"),
+        ("sysCall_sensing", "Called in each step, after the physics and the sensors."),
+    ):
+        line = window.page.locator(f".cm-line:has-text('{word}')").first
+        line.hover(position={"x": 60, "y": 8})
+        window.page.wait_for_selector(f".cm-tooltip-hover:has-text('{explanation}')")
+        window.page.mouse.move(5, 5)
+        window.page.wait_for_selector(".cm-tooltip-hover", state="detached")
+    revert = window.page.locator(".scripts button:has-text('Revert')")
+    for _ in range(40):
+        if revert.is_disabled():
+            break
+        window.page.keyboard.press("Control+z")
+
+
 def test_a_file_that_another_program_has_changed_is_overwritten_only_after_a_question(window: ToolsPage) -> None:
     script: Path = window.script  # type: ignore[attr-defined]
     window.show("scripts")

@@ -60,7 +60,7 @@ const problemsChanged = StateEffect.define();
 export class Editor {
   #view;
   #calls;
-  #byName = new Map(); // "sim.getObject": { call, text }
+  #byName = new Map(); // "sim.getObject": { call, text, differs }, with old names and callbacks
   #api;
   #language = new Compartment();
   #name = "python";
@@ -71,6 +71,11 @@ export class Editor {
     this.#calls = calls;
     for (const [module, functions] of Object.entries(api.functions)) {
       for (const each of functions) this.#byName.set(`${module}.${each.name}`, each);
+    }
+    for (const [name, text] of Object.entries(api.callbacks)) this.#byName.set(name, { call: name, text });
+    for (const [old, present] of Object.entries(api.old)) {
+      const known = this.#byName.get(present);
+      if (known) this.#byName.set(old, { ...known, old });
     }
     this.#view = new EditorView({ parent, state: this.#state("", "python") });
   }
@@ -162,14 +167,14 @@ export class Editor {
   }
 
   #complete(context) {
-    const named = context.matchBefore(/\b(?:sim|simROS|simROS2)\.\w*/);
-    if (named) {
+    const named = context.matchBefore(/\bsim\w*\.\w*/);
+    if (named && named.text.split(".")[0] in this.#api.functions) {
       const [module] = named.text.split(".");
       const functions = (this.#api.functions[module] ?? []).map((each) => ({
         label: each.name,
         type: "function",
         detail: each.call.slice(module.length + 1 + each.name.length),
-        info: each.text,
+        info: [each.text, each.differs].filter(Boolean).join(" "),
         apply: `${each.name}(`,
         boost: 1,
       }));
@@ -179,8 +184,8 @@ export class Editor {
     const word = context.matchBefore(/\w+/);
     if (!word && !context.explicit) return null;
     const lua = this.#name === "lua";
-    const callbacks = this.#api.callbacks.map((name) =>
-      snippetCompletion(lua ? `function ${name}()\n\t\${}\nend` : `def ${name}():\n\t\${}`, { label: name, type: "callback" }),
+    const callbacks = Object.entries(this.#api.callbacks).map(([label, info]) =>
+      snippetCompletion(lua ? `function ${label}()\n\t\${}\nend` : `def ${label}():\n\t\${}`, { label, info, type: "callback" }),
     );
     const modules = Object.keys(this.#api.functions).map((label) => ({ label, type: "module" }));
     const seen = new Set(this.text().match(/\b[A-Za-z_]\w{3,}\b/g) ?? []);
@@ -198,7 +203,7 @@ export class Editor {
       else if ("([{".includes(before[i])) {
         if (depth) --depth;
         else if (before[i] === "(") {
-          const found = /\b((?:sim|simROS|simROS2)\.\w+)$/.exec(before.slice(0, i));
+          const found = /\b(sim\w*\.\w+)$/.exec(before.slice(0, i));
           return found ? (this.#byName.get(found[1])?.call ?? null) : null;
         }
       }
@@ -208,7 +213,7 @@ export class Editor {
 
   #hover(view, position) {
     const { from, text } = view.state.doc.lineAt(position);
-    for (const found of text.matchAll(/\b(?:sim|simROS|simROS2)\.\w+/g)) {
+    for (const found of text.matchAll(/\b(?:sim\w*\.\w+|sim[A-Z]\w*|sysCall_\w+)/g)) {
       const begin = from + found.index;
       if (position < begin || position > begin + found[0].length) continue;
       const known = this.#byName.get(found[0]);
@@ -221,9 +226,13 @@ export class Editor {
           dom.className = "cm-completionInfo";
           const call = document.createElement("code");
           call.textContent = known.call;
-          const text = document.createElement("p");
-          text.textContent = known.text;
-          dom.append(call, text);
+          dom.append(call);
+          for (const words of [known.old && `${known.old} is an old name.`, known.text, known.differs]) {
+            if (!words) continue;
+            const paragraph = document.createElement("p");
+            paragraph.textContent = words;
+            dom.append(paragraph);
+          }
           return { dom };
         },
       };

@@ -17,7 +17,7 @@ from bubblesim.scripting.api.functions import MODULES, ScriptFunction, functions
 from bubblesim.scripting.api.ik import ik_module  # noqa: F401  # register their modules
 from bubblesim.scripting.api.image import image_module  # noqa: F401  # register their modules
 from bubblesim.scripting.api.ompl import ompl_module  # noqa: F401  # register their modules
-from bubblesim.scripting.api.reference import call, text
+from bubblesim.scripting.api.reference import call, differing, text
 from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # register their modules
 from bubblesim.scripting.api.sim import remote_api_module, sim_module  # noqa: F401  # register their modules
 from bubblesim.scripting.api.ui import ui_module  # noqa: F401  # register their modules
@@ -90,5 +90,6 @@ def _described(name: str, function: ScriptFunction) -> str:
         lines.append(
             f"  for {'remote clients only' if function.for_remote_only else 'child scripts and remote clients'}"
         )
-    lines.append(textwrap.fill(text(function), _WIDTH, initial_indent="  ", subsequent_indent="  "))
+    paragraphs = filter(None, (text(function), differing(function)))
+    lines += [textwrap.fill(each, _WIDTH, initial_indent="  ", subsequent_indent="  ") for each in paragraphs]
     return "\n".join(lines)

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 _VOLUMES = {30: "pyramid", 31: "cylinder", 32: "disc", 33: "cone", 34: "ray"}  # sim.proximitysensor_..._subtype
@@ -21,6 +21,8 @@ class CreatedSensor:
     """Of the object."""
     element: str
     """The element <sensor>."""
+    with_pixels: Callable[[int, int], CreatedSensor] | None = None
+    """Of a camera: returns the same one with other columns and rows."""
 
     def sdf(self) -> str:
         """Return the model; its link has CoppeliaSim's axes: the sensor looks along z."""
@@ -95,4 +97,5 @@ def vision_sensor(
         f"{2 * min(max(half, 0.005), _WIDEST)!r}</horizontal_fov>{'' if is_perspective else flat}"
         f"<image><width>{columns}</width><height>{rows}</height></image><clip><near>"
         f"{min(max(near, _LEAST_NEAR), far / 2)!r}</near><far>{far!r}</far></clip></camera></sensor>",
+        lambda wide, high: vision_sensor(wide, high, floats, rate, is_perspective=is_perspective),
     )

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from bubblesim.scene_state.created_sensors import CreatedSensor
 from bubblesim.scene_state.created_shapes import CreatedShape
 from bubblesim.scene_state.set_colours import SetColours
 from bubblesim.scene_state.set_numbers import SetNumbers
@@ -39,6 +40,8 @@ class SceneEdits:
     """Created shapes, by the handle of their model."""
     sensors: dict[int, int] = field(default_factory=dict)
     """Created sensors, by the handle of their link, which is the object that callers know."""
+    created_sensors: dict[int, CreatedSensor] = field(default_factory=dict)
+    """Their descriptions, likewise."""
     sources: dict[int, str] = field(default_factory=dict)
     """SDFormat strings of models that callers have added."""
     foreign: dict[int, list[int]] = field(default_factory=dict)
@@ -52,7 +55,7 @@ class SceneEdits:
     callback_joints: dict[int, bool] = field(default_factory=dict)
     """Joints that a script has given to the callback sysCall_joint, or taken from it; for a run."""
     replaced: dict[int, int] = field(default_factory=dict)
-    """Present handles of created shapes that were built anew, by the handle that callers know."""
+    """Present handles of created shapes and sensors that were built anew, by the handle that callers know."""
     stopped: Callable[[], bool] = lambda: False
     """Whether the simulation is stopped: changes stay then."""
     moved: set[int] = field(default_factory=set)
@@ -114,6 +117,7 @@ class SceneEdits:
                 self.placed,
                 self.shapes,
                 self.sensors,
+                self.created_sensors,
                 self.sources,
                 self.foreign,
             ]

@@ -17,9 +17,9 @@ from typing import Any
 
 from bubblesim.scene_files.copies import is_shipped
 from bubblesim.scene_state.problems import of_source
-from bubblesim.scripting.api import reference
+from bubblesim.scripting.api import old_names, reference
 from bubblesim.scripting.api.functions import MODULES, functions
-from bubblesim.scripting.host.callback_names import HOOKS
+from bubblesim.scripting.host.callback_names import WHEN_CALLED
 from bubblesim.scripting.language.python_code import PythonCode
 from bubblesim.scripting.language.script_output import Source
 from bubblesim.scripting.language.source import ScriptSourceError, is_lua, read_text
@@ -100,12 +100,18 @@ def _check_lua(text: str) -> list[dict[str, Any]]:
 
 
 async def api(_page: Any) -> dict[str, Any]:
-    """Return what the editor completes: ``functions`` by module, with name, call and text; ``constants`` of sim and the
-    names of the ``callbacks``."""
+    """Return what the editor completes: ``functions`` by module, with name, call, text and how each ``differs`` from
+    CoppeliaSim's; ``constants`` of sim; ``callbacks``, with the text of each by its name; and ``old`` names of
+    functions, with the present ones."""
     return {
         "functions": {
             name: [
-                {"name": each.name, "call": reference.call(f"{name}.{each.name}", each), "text": reference.text(each)}
+                {
+                    "name": each.name,
+                    "call": reference.call(f"{name}.{each.name}", each),
+                    "text": reference.text(each),
+                    "differs": reference.differing(each),
+                }
                 for each in functions(module)
                 if not each.for_remote_only
             ]
@@ -114,7 +120,10 @@ async def api(_page: Any) -> dict[str, Any]:
         "constants": sorted(
             name for name in dir(MODULES["sim"]) if not name.startswith("_") and isinstance(_member(name), int)
         ),
-        "callbacks": list(HOOKS),
+        "callbacks": WHEN_CALLED,
+        "old": old_names.of_functions(
+            {name: [each.name for each in functions(module)] for name, module in MODULES.items()}
+        ),
     }
 
 

@@ -182,15 +182,18 @@ ContactFilter contact_filter(py::function function) {
     const py::gil_scoped_acquire gil;
     delete last;
   });
-  return [held](ObjectId first, ObjectId second) {
+  return [held](ObjectId first, ObjectId second) -> ContactAnswer {
     const py::gil_scoped_acquire gil;
     try {
-      return (*held)(first, second).cast<bool>();
+      const py::object answer = (*held)(first, second);
+      if (!py::isinstance<py::tuple>(answer)) return {answer.cast<bool>(), std::nullopt};
+      const auto [resist, friction] = answer.cast<std::pair<bool, std::optional<double>>>();
+      return {resist, friction && *friction >= 0 ? friction : std::nullopt};
     } catch (py::error_already_set& error) {
       error.discard_as_unraisable("a contact filter");
-    } catch (const py::cast_error&) {  // no bool
+    } catch (const py::cast_error&) {  // another answer
     }
-    return true;
+    return {};
   };
 }
 
@@ -211,7 +214,8 @@ void bind_substep_calls(py::module_& module) {
       },
       py::arg("world"), py::arg("function"),
       "Let a function of two links decide, in each substep in which they touch, whether they resist each other; a\n"
-      "static link comes second. None removes it.");
+      "static link comes second. It returns that, or a tuple of that and of a coefficient of friction, >= 0, in place\n"
+      "of the surfaces' own (None: their own). None removes it.");
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ _INSTEAD = {
     "simSDF": "sim.loadModel takes .sdf files",
     "simSubprocess": "sim.launchExecutable",
     "simSurfRec": "a Python script can use any library",
+    "simTest": "bubblesim test runs tests, sim.addLog writes lines",
     "simURDF": "scene files include .urdf files",
     "simWS": "programs use the ZeroMQ remote API, or ROS",
     "simZMQ": "programs use the ZeroMQ remote API, or ROS",

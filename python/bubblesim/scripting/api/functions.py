@@ -16,6 +16,7 @@ from typing import Any, TypeVar, cast
 
 from bubblesim.messages.names import unknown_attribute
 from bubblesim.scripting.api.checked_calls import checked, kind_of, signature_of
+from bubblesim.scripting.api.differences import difference
 from bubblesim.scripting.api.kinds import Kind
 from bubblesim.scripting.api.missing_names import explain
 from bubblesim.scripting.api.old_names import note_old_name, present_name
@@ -37,6 +38,7 @@ class ScriptFunction:
     group: type  # the class that defines the function; its group in the reference
     for_remote_only: bool  # the other callers get an error
     waits: bool = False  # it takes several steps
+    differs: str = ""  # how, from CoppeliaSim's function
 
 
 def script_module(name: str) -> Callable[[Module], Module]:
@@ -84,7 +86,7 @@ def functions(module: type) -> list[ScriptFunction]:
         group = next(base for base in reversed(module.__mro__) if name in vars(base))
         doc = inspect.getdoc(function) or ""
         marks = hasattr(function, "for_remote_only"), hasattr(function, "waits")
-        found.append(ScriptFunction(name, signature_of(function), doc, group, *marks))
+        found.append(ScriptFunction(name, signature_of(function), doc, group, *marks, difference(function)))
     return found
 
 

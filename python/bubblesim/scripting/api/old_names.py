@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 
 from bubblesim.program.output import write_line
@@ -165,6 +165,30 @@ def names_to(module: str, exists: Exists) -> Mapping[str, str]:
     """Return the old names of a module's functions that are there, with the present ones."""
     known = RENAMED.get(module, {})
     return MappingProxyType({old: new for old, new in known.items() if exists(module, new)})
+
+
+def of_functions(present: Mapping[str, Sequence[str]]) -> dict[str, str]:
+    """Return the old names of functions, with their module where they have one, and the present ones.
+
+    :param present: the names of functions by module.
+    """
+    of_v_rep_3 = {f"sim{name[0].upper()}{name[1:]}": f"sim.{name}" for name in present.get("sim", ())}
+    of_plugins = {
+        f"{beginning}{name}": f"{module}.{name}"
+        for beginning, module in OF_PLUGINS.items()
+        for name in present.get(module, ())
+    }
+    renamed = {
+        f"{module}.{old}": f"{module}.{new}"
+        for module, names in RENAMED.items()
+        for old, new in names.items()
+        if new in present.get(module, ())
+    }
+    globals_of_renamed = {
+        f"sim{old[4].upper()}{old[5:]}": new for old, new in renamed.items() if old.startswith("sim.")
+    }
+    others = {f"sim{old}": f"sim.{new}" for old, new in OF_V_REP.items() if new in present.get("sim", ())}
+    return {**of_v_rep_3, **globals_of_renamed, **of_plugins, **renamed, **others}
 
 
 def note_old_name(caller: Caller, old: str, new: str) -> None:

@@ -45,7 +45,8 @@ def _title(group: type, module: type) -> str:
 
 def _entry(module: str, function: ScriptFunction) -> str:
     mark = " *(remote clients only)*" if function.for_remote_only else ""
-    return f"- `{call(f'{module}.{function.name}', function)}`{mark}: {text(function)}"
+    entry = f"- `{call(f'{module}.{function.name}', function)}`{mark}: {text(function)} {differing(function)}"
+    return entry.rstrip()
 
 
 def call(name: str, function: ScriptFunction) -> str:
@@ -64,6 +65,11 @@ def call(name: str, function: ScriptFunction) -> str:
 def text(function: ScriptFunction) -> str:
     """Return the documentation of a function, in one line."""
     return " ".join(function.doc.split()).replace("``", "`")
+
+
+def differing(function: ScriptFunction) -> str:
+    """Return how a function differs from CoppeliaSim's, in one sentence; an empty string if it does not."""
+    return f"In CoppeliaSim, {function.differs}." if function.differs else ""
 
 
 def _shown(default: object) -> str:

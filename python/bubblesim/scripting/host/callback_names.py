@@ -9,21 +9,28 @@ from bubblesim.messages.names import did_you_mean
 
 PAUSE_HOOKS = ("sysCall_suspend", "sysCall_suspended", "sysCall_resume")
 SUBSTEP_HOOKS = ("sysCall_dyn", "sysCall_joint", "sysCall_contact")
-HOOKS = (
-    "sysCall_init",
-    "sysCall_thread",
-    "sysCall_actuation",
-    "sysCall_sensing",
-    "sysCall_reset",
-    "sysCall_cleanup",
-    "sysCall_vision",
-    "sysCall_trigger",
-    "sysCall_beforeSimulation",
-    "sysCall_afterSimulation",
-    "sysCall_msg",
-    *SUBSTEP_HOOKS,
-    *PAUSE_HOOKS,
-)
+WHEN_CALLED = {
+    "sysCall_init": "Called once, in the first step, before all others.",
+    "sysCall_thread": "Runs concurrently with the other callbacks, in turns with them.",
+    "sysCall_actuation": "Called in each step, before the physics.",
+    "sysCall_sensing": "Called in each step, after the physics and the sensors.",
+    "sysCall_reset": "Called after the world was reset while time goes on. Not in CoppeliaSim.",
+    "sysCall_cleanup": "Called once, at the end.",
+    "sysCall_vision": "Called in each step before sysCall_sensing, for the script of a camera.",
+    "sysCall_trigger": "Called before sysCall_sensing, when the sensor of the script detects something. "
+    "In CoppeliaSim, also for force sensors that break.",
+    "sysCall_beforeSimulation": "Called after sysCall_init of this script, before all other scripts.",
+    "sysCall_afterSimulation": "Called after sysCall_cleanup of all other scripts.",
+    "sysCall_msg": "Called with a message and its origin when a script calls sim.broadcastMsg.",
+    "sysCall_dyn": "Called before and after each substep of the physics, with its data.",
+    "sysCall_joint": "Called in each substep of the physics for a joint in callback mode; it returns vel and force. In "
+    "CoppeliaSim, also for kinematic joints.",
+    "sysCall_contact": "Called in each substep of the physics for two shapes that touch; returns if they collide.",
+    "sysCall_suspend": "Called at the beginning of a pause.",
+    "sysCall_suspended": "Called repeatedly during a pause.",
+    "sysCall_resume": "Called at the end of a pause.",
+}
+HOOKS = tuple(WHEN_CALLED)
 OLD_NAMES = {
     "sysCall_thread": "sysCall_threadmain",
     "sysCall_dyn": "sysCall_dynCallback",

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from bubblesim._core import SubstepCall, set_contact_filter
@@ -10,6 +11,9 @@ from bubblesim.scene_state.object_tree import acting_object
 from bubblesim.scene_state.scene_edits import SceneEdits
 from bubblesim.scripting.host.child_script import ChildScript
 from bubblesim.scripting.host.joint_callback import drive, joint_data
+
+_FRICTION = ("mu", "friction", "kineticFriction")  # as CoppeliaSim names it for ODE, Bullet and Newton
+_ANSWERS = {"ignoreContact", "collisionResponse", *_FRICTION}
 
 
 class SubstepCallbacks:
@@ -108,16 +112,23 @@ class SubstepCallbacks:
             handle = int(self._simulation.world.parent(handle))
         return found
 
-    def _lets_touch(self, first: int, second: int) -> bool:
-        """Return whether two links that touch resist each other."""
+    def _lets_touch(self, first: int, second: int) -> tuple[bool, float | None]:
+        """Return whether two links that touch resist each other, and their friction; None: that of their surfaces."""
         handles = [self._shown(first), self._shown(second)]
         for script in self._scripts["sysCall_contact"]:
             answer = script.answer("sysCall_contact", {"handle1": handles[0], "handle2": handles[1], "engine": 1})
-            if isinstance(answer, dict) and ("ignoreContact" in answer or "collisionResponse" in answer):
-                return not answer.get("ignoreContact") and bool(answer.get("collisionResponse", True))
-        return True
+            if isinstance(answer, dict) and not _ANSWERS.isdisjoint(answer):
+                resist = not answer.get("ignoreContact") and bool(answer.get("collisionResponse", True))
+                return resist, _friction(answer)
+        return True, None
 
     def _shown(self, link: int) -> int:
         """Return the handle of a created shape in place of that of its link."""
         model = int(self._simulation.world.outermost_model_of(link))
         return self._edits.known_handle(model) if model in self._edits.shapes else link
+
+
+def _friction(answer: dict[str, Any]) -> float | None:
+    """Return the coefficient that a contact callback has answered; None if it is none."""
+    found = next((answer[name] for name in _FRICTION if name in answer), None)
+    return float(found) if isinstance(found, int | float) and 0 <= found < math.inf else None

@@ -99,10 +99,20 @@ void sort(std::vector<FoundPair>& pairs) {
   if (!std::is_sorted(pairs.begin(), pairs.end(), before)) std::sort(pairs.begin(), pairs.end(), before);
 }
 
-/// Drops the pairs that the filter does not let resist. It may move bodies, so it is asked after the search.
-void drop_refused(Contacts& contacts) {
+void set_friction(double coefficient, const FoundPair& pair, std::vector<FoundContact>& points) {
+  for (int i = 0; i < pair.count; ++i) {
+    dSurfaceParameters& surface = points[pair.begin + static_cast<std::size_t>(i)].contact.surface;
+    surface.mu = surface.mu2 = bounded_friction(coefficient);
+  }
+}
+
+/// Drops the pairs that the filter does not let resist, and gives others the friction that it answers. It may move
+/// bodies, so it is asked after the search.
+void apply_filter(Contacts& contacts) {
   const auto is_refused = [&](const FoundPair& pair) {
-    return !contacts.filter(pair.first->link->object, pair.second->link->object);
+    const ContactAnswer answer = contacts.filter(pair.first->link->object, pair.second->link->object);
+    if (answer.resist && answer.friction) set_friction(*answer.friction, pair, contacts.found.points);
+    return !answer.resist;
   };
   std::vector<FoundPair>& pairs = contacts.found.pairs;
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_refused), pairs.end());
@@ -136,7 +146,7 @@ void search_contacts(Substep& substep) {
 
 void order_contacts(Contacts& contacts) {
   sort(contacts.found.pairs);
-  if (contacts.filter) drop_refused(contacts);
+  if (contacts.filter) apply_filter(contacts);
   if (contacts.islands.may_be_beyond_limit()) thin_out(contacts.found, contacts.islands);
 }
 

@@ -2,6 +2,7 @@
 #include "physics/contacts/contact_points.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <vector>
 
@@ -52,6 +53,16 @@ int take_spread(const std::vector<dContactGeom>& found, ContactPoints& points) {
   return kMaxContactsPerPair;
 }
 
+/// Drops points whose normal is not a number, as ODE has it for a sphere in the middle of a cylinder: no direction
+/// leads out. Returns how many stay.
+int drop_undirected(ContactPoints& points, int count) {
+  const auto end = points.begin() + count;
+  const auto has_no_normal = [](const dContactGeom& point) {
+    return !std::isfinite(point.normal[0] + point.normal[1] + point.normal[2]);
+  };
+  return static_cast<int>(std::remove_if(points.begin(), end, has_no_normal) - points.begin());
+}
+
 }  // namespace
 
 int find_contact_points(dGeomID first, dGeomID second, ContactPoints& points) {
@@ -61,7 +72,8 @@ int find_contact_points(dGeomID first, dGeomID second, ContactPoints& points) {
     return take_spread(all, points);
   }
   if (!is_mesh(first) && !is_mesh(second)) {
-    return dCollide(first, second, kMaxContactsPerPair, points.data(), sizeof(dContactGeom));
+    const int count = dCollide(first, second, kMaxContactsPerPair, points.data(), sizeof(dContactGeom));
+    return drop_undirected(points, count);
   }
   // Debian's ODE shares the working memory for meshes in the process.
   static std::mutex mutex;

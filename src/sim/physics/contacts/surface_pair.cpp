@@ -61,8 +61,8 @@ SurfacePair combine(const Surface& a, const Surface& b, double step) {
   dSurfaceParameters& made = pair.ode;
   // Approximation 1 makes mu a coefficient; without it mu is a force in ODE and wheels drift outwards.
   made.mode = dContactApprox1;
-  made.mu = std::min({a.mu, b.mu, kMostFriction});
-  made.mu2 = std::min({a.mu2.value_or(a.mu), b.mu2.value_or(b.mu), kMostFriction});
+  made.mu = bounded_friction(std::min(a.mu, b.mu));
+  made.mu2 = bounded_friction(std::min(a.mu2.value_or(a.mu), b.mu2.value_or(b.mu)));
   if (made.mu2 != made.mu) made.mode |= dContactMu2;
 
   // Like Gazebo since 7.9: "combines surface slip parameters with a sum" (its Migration.md, ODEPhysics::Collide).
@@ -101,6 +101,8 @@ SurfacePair combine(const Surface& a, const Surface& b, double step) {
   pair.max_depth = limited ? speed * step / softness.erp : std::numeric_limits<double>::infinity();
   return pair;
 }
+
+double bounded_friction(double coefficient) { return std::min(coefficient, kMostFriction); }
 
 void share_load(double inverse_mass, double step, SurfacePair& pair) {
   // A contact that yields bounces less.

@@ -22,6 +22,9 @@ struct SurfacePair {
 /// For a substep of `step` seconds.
 SurfacePair combine(const Surface& a, const Surface& b, double step);
 
+/// The solvers take no infinite coefficient of friction.
+double bounded_friction(double coefficient);
+
 /// Makes a contact without softness or restitution of its own yield a little, so that points share the load where rigid
 /// ones would leave it open which of them bears it. `inverse_mass` in 1/kg is the sum of those of the two outermost
 /// models.

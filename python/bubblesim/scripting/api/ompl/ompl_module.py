@@ -131,7 +131,7 @@ class SimOmpl:
         self._task(task)
 
     def setup(self, task: int) -> None:
-        """Accept that a task is ready to be solved."""
+        """Return at once: a task is prepared when it is solved."""
         self._task(task)
 
     def solve(self, task: int, max_time: float = -1.0) -> bool:

@@ -144,16 +144,26 @@ class RosActions(RosContext):
         return self._action_server(server).is_in(goal_id, GoalStatus.ACTIVE)
 
     def actionClientTreatUInt8ArrayAsString(self, client: RosHandle) -> None:
-        """Do nothing; for older scripts: uint8[] is always bytes."""
+        """Let uint8[] of feedback and results be strings in Lua, not tables; in Python they are always bytes."""
+        self._byte_arrays.deliver_strings(client)
 
     def actionServerTreatUInt8ArrayAsString(self, server: RosHandle) -> None:
-        """Do nothing; for older scripts: uint8[] is always bytes."""
+        """Let uint8[] of goals be strings in Lua, not tables; in Python they are always bytes."""
+        self._byte_arrays.deliver_strings(server)
 
     def _make(self, of_ros1: Any, of_ros2: Any, name: str, action_type: str, *callbacks: Any) -> Any:
         kind: Any = Ros2ActionParts if self._is_ros2 else ActionTopics
         endpoints = kind(self._bridge, name, action_type, self._warn_of_truncation)
+        made: list[Any] = []
+
+        def delivering(callback: Any) -> Any:
+            return lambda *arguments: callback(
+                *(self._byte_arrays.received(made[0].handle, each) for each in arguments)
+            )
+
         with endpoints.closed_on_error():
-            return (of_ros2 if self._is_ros2 else of_ros1)(endpoints, *callbacks)
+            made.append((of_ros2 if self._is_ros2 else of_ros1)(endpoints, *map(delivering, callbacks)))
+        return made[0]
 
     def _action_client(self, handle: int) -> ActionClient | Ros2ActionClient:
         if handle not in self._action_clients:
@@ -166,6 +176,7 @@ class RosActions(RosContext):
         return self._action_servers[handle]
 
     def _forget(self, what: str, handle: int) -> None:
+        self._byte_arrays.forget(handle)
         self._caller.in_each_step.pop((what, handle), None)
         self._caller.at_end.pop((what, handle), None)
 

@@ -9,6 +9,7 @@ from typing import Any
 
 from bubblesim import _core
 from bubblesim.program.output import write_line
+from bubblesim.scripting.api.ros.byte_arrays import ByteArrays
 from bubblesim.scripting.caller import Caller
 
 
@@ -24,6 +25,7 @@ class RosContext:
         self._simulation = simulation
         self._caller = caller
         self._warned: set[object] = set()
+        self._byte_arrays = ByteArrays(caller)
 
     def rosVersion(self) -> int:
         """Return the version of ROS that the module uses, 1 or 2; some messages have other fields in each."""

@@ -42,7 +42,8 @@ def _callback(value: Any) -> Callable[..., Any] | str:
 
 
 def _list(value: Any) -> list[Any]:
-    if isinstance(value, str | bytes | Mapping) or not isinstance(value, Iterable):
+    is_table = isinstance(value, Mapping) and bool(value)  # an empty table of Lua may be a list
+    if isinstance(value, str | bytes) or is_table or not isinstance(value, Iterable):
         raise TypeError
     return list(value)
 

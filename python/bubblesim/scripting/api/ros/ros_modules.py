@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from bubblesim import _core
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.functions import script_module
 from bubblesim.scripting.api.ros.actions import RosActions
 from bubblesim.scripting.api.ros.images import RosImages
@@ -31,6 +32,7 @@ class SimRos(RosServices, RosTransforms, RosImages, RosParameters):
         """Create a publisher and return its handle."""
         return self._advertise(topic, message_type, _core.Qos(queue_size, transient_local=latch))
 
+    @differs("transport hints may choose UDP; here messages are sent over TCP")
     def subscribe(
         self,
         topic: str,
@@ -73,10 +75,12 @@ class SimRos(RosServices, RosTransforms, RosImages, RosParameters):
         self._shutdown_server(server)
 
     def serviceClientTreatUInt8ArrayAsString(self, client: RosHandle) -> None:
-        """Do nothing; for older scripts: uint8[] is always bytes."""
+        """Let uint8[] of responses be strings in Lua, not tables; in Python they are always bytes."""
+        self._byte_arrays.deliver_strings(client)
 
     def serviceServerTreatUInt8ArrayAsString(self, server: RosHandle) -> None:
-        """Do nothing; for older scripts: uint8[] is always bytes."""
+        """Let uint8[] of requests be strings in Lua, not tables; in Python they are always bytes."""
+        self._byte_arrays.deliver_strings(server)
 
     def imageTransportAdvertise(self, topic: str, queue_size: QueueSize = 1) -> int:
         """Create a publisher of images on ``topic``, and compressed on ``topic``/compressed; return its handle."""
@@ -154,13 +158,15 @@ class SimRos2(RosServices, RosTransforms, RosImages, RosParameters, RosActions):
 
     def subscriptionTreatUInt8ArrayAsString(self, subscriber: RosHandle) -> None:
         """Let uint8[] of received messages be strings in Lua, not tables; in Python they are always bytes."""
-        self._as_strings.add(subscriber)
+        self._byte_arrays.deliver_strings(subscriber)
 
     def clientTreatUInt8ArrayAsString(self, client: RosHandle) -> None:
-        """Do nothing; for older scripts: uint8[] is always bytes."""
+        """Let uint8[] of responses be strings in Lua, not tables; in Python they are always bytes."""
+        self._byte_arrays.deliver_strings(client)
 
     def serviceTreatUInt8ArrayAsString(self, server: RosHandle) -> None:
-        """Do nothing; for older scripts: uint8[] is always bytes."""
+        """Let uint8[] of requests be strings in Lua, not tables; in Python they are always bytes."""
+        self._byte_arrays.deliver_strings(server)
 
     def imageTransportCreatePublisher(self, topic: str, queue_size: QueueSize = 1) -> int:
         """Create a publisher of images on ``topic``, and compressed on ``topic``/compressed; return its handle."""
@@ -222,7 +228,7 @@ class SimRos2(RosServices, RosTransforms, RosImages, RosParameters, RosActions):
         return time["sec"] + time["nanosec"] * 1e-9
 
     def spinSome(self) -> None:
-        """Do nothing; for older scripts: messages are delivered at the start of each step."""
+        """Return at once; for older scripts: messages are delivered at the start of each step."""
 
     def getTime(self) -> dict[str, int]:
         """Return ROS time as {sec, nanosec}, for stamps: with /use_sim_time the time of the state, else wall time.

@@ -37,7 +37,7 @@ class RosServices(RosContext):
                 f"'{name}'", _core.messages.truncations(request_type, request, self._bridge.version)
             )
         response: dict[str, Any] = self._bridge.call(client, request or {}, timeout, self._time_form)
-        return response
+        return self._byte_arrays.received(client, response)  # type: ignore[no-any-return]
 
     def waitForService(self, service: ServiceOrClient, timeout: float = _CALL_TIMEOUT) -> bool:
         """Wait for a service (its name, or a client of it) for at most ``timeout`` seconds; return its availability."""
@@ -65,15 +65,23 @@ class RosServices(RosContext):
                 self._warn_of_truncation(f"'{name}'", _core.messages.truncations(response_type, response, version))
 
         answer = self._caller.answering_callback(callback, check)
-        server = int(self._bridge.advertise_service(name, service_type, answer, self._time_form))
+        made: list[int] = []
+
+        def deliver(request: dict[str, Any]) -> Any:
+            return answer(self._byte_arrays.received(made[0], request))
+
+        server = int(self._bridge.advertise_service(name, service_type, deliver, self._time_form))
+        made.append(server)
         self._caller.at_end["server", server] = lambda: self._bridge.shutdown_service_server(server)
         return server
 
     def _shutdown_client(self, client: int) -> None:
         self._bridge.shutdown_service_client(client)
         self._clients.pop(client, None)
+        self._byte_arrays.forget(client)
         self._caller.at_end.pop(("client", client), None)
 
     def _shutdown_server(self, server: int) -> None:
         self._bridge.shutdown_service_server(server)
+        self._byte_arrays.forget(server)
         self._caller.at_end.pop(("server", server), None)

@@ -31,7 +31,6 @@ class RosTopics(RosContext):
         self._checked: set[int] = set()  # publishers with a recently checked message
         self._first_checked: set[int] = set()  # publishers with at least one checked message
         self._next_checks = 0.0  # simulation time
-        self._as_strings: set[int] = set()  # subscribers whose uint8[] are strings in Lua, too
 
     @checked_on_failure
     def publish(self, publisher: RosHandle, message: Message) -> None:
@@ -58,11 +57,11 @@ class RosTopics(RosContext):
         self._caller.at_end.pop(("publisher", publisher), None)
 
     def publisherTreatUInt8ArrayAsString(self, publisher: RosHandle) -> None:
-        """Do nothing; for older scripts: uint8[] is always bytes."""
+        """Return at once; for older scripts: publish takes strings, bytes and tables for uint8[]."""
 
     def subscriberTreatUInt8ArrayAsString(self, subscriber: RosHandle) -> None:
         """Let uint8[] of received messages be strings in Lua, not tables; in Python they are always bytes."""
-        self._as_strings.add(subscriber)
+        self._byte_arrays.deliver_strings(subscriber)
 
     def _advertise(self, topic: str, message_type: str, qos: _core.Qos | int) -> int:
         message_type = with_slashes(message_type)
@@ -103,10 +102,10 @@ class RosTopics(RosContext):
         message_type = with_slashes(message_type)
         made: list[int] = []
 
-        def with_tables(message: dict[str, Any]) -> None:
-            guarded(message if made[0] in self._as_strings else _without_bytes(message))
+        def deliver(message: dict[str, Any]) -> None:
+            guarded(self._byte_arrays.received(made[0], message))
 
-        callback = with_tables if for_script and self._caller.in_lua else guarded
+        callback = deliver if for_script and self._caller.in_lua else guarded
         subscriber = int(self._bridge.subscribe(topic, message_type, callback, qos, self._time_form))
         made.append(subscriber)
         self._caller.at_end["subscriber", subscriber] = lambda: self._bridge.shutdown_subscriber(subscriber)
@@ -114,7 +113,7 @@ class RosTopics(RosContext):
 
     def _shutdown_subscriber(self, subscriber: int) -> None:
         self._bridge.shutdown_subscriber(subscriber)
-        self._as_strings.discard(subscriber)
+        self._byte_arrays.forget(subscriber)
         self._caller.at_end.pop(("subscriber", subscriber), None)
 
     def _warn_of_another_clock(self, topic: str, message: Message) -> None:
@@ -132,14 +131,3 @@ class RosTopics(RosContext):
                 f"stamp with {self._module}.getTime()",
             )
             return
-
-
-def _without_bytes(value: Any) -> Any:
-    """Return a message with lists of integers in place of bytes."""
-    if isinstance(value, bytes):
-        return list(value)
-    if isinstance(value, dict):
-        return {name: _without_bytes(field) for name, field in value.items()}
-    if isinstance(value, list) and value and isinstance(value[0], dict | bytes):
-        return [_without_bytes(each) for each in value]
-    return value

@@ -5,18 +5,22 @@ from __future__ import annotations
 
 from typing import Any
 
-from bubblesim.geometry import poses
-from bubblesim.scripting.api.kinds import Handle, Numbers, Vector12
+from bubblesim.scripting.api.differences import differs
+from bubblesim.scripting.api.kinds import Handle
 from bubblesim.scripting.api.sim.logs import LogFunctions
+
+_NO_SERIAL = "it uses a serial port; here scripts open none"
 
 
 class AcceptedFunctions(LogFunctions):
     """Objects that scripts cannot make here are dummies with a pose and a name; a warning states it once."""
 
+    @differs("it makes a sensor that connects bodies and measures; here it is a dummy: sensors are made in files")
     def createForceSensor(self, options: int, integers: Any = None, floats: Any = None, more: Any = None) -> int:
         """Return a dummy in place of a force sensor: sensors are made in the scene's file."""
         return self._stand_in_for("Force_sensor", "createForceSensor", "it is a dummy, which measures nothing")
 
+    @differs("linked dummies close loops of the physics; here those of files do, of scripts not")
     def setLinkDummy(self, dummy: Handle, other: int) -> int:
         """Keep which dummy is linked to another one; -1: none. Return 1."""
         first = self._resolve(dummy)
@@ -38,26 +42,11 @@ class AcceptedFunctions(LogFunctions):
         self._tree.dummy(handle)  # raises
         return int(self._caller.shared.settings.get((int, f"link of {handle}"), -1))
 
-    def setSphericalJointMatrix(self, joint: Handle, matrix: Vector12) -> int:
-        """Turn a spherical joint: its child, if it is a frame; physics alone turns joints of bodies. Return 1."""
-        handle = self._resolve(joint)
-        if self._tree.has_body(handle):
-            self._warn("setSphericalJointMatrix", "physics alone turns a spherical joint")
-            return 1
-        pose = poses.of_matrix(matrix)
-        for child in self._tree.children(handle):
-            if not self._tree.has_body(child):
-                self._tree.set_pose(child, pose, handle)
-        return 1
-
-    def setSphericalJointRotation(self, joint: Handle, quaternion: Numbers) -> int:
-        """Turn a spherical joint; see setSphericalJointMatrix."""
-        return 1
-
     def getScriptName(self, script: int) -> str:
         """Return the name of a script's object (old style)."""
         return self._tree.name(self._resolve(script))
 
+    @differs("it sets a variable of another script; here callScriptFunction calls one of its functions")
     def setScriptVariable(self, name: str, script: int, value: Any) -> int:
         """Return -1: call a function of the script instead."""
         self._warn(
@@ -80,10 +69,12 @@ class AcceptedFunctions(LogFunctions):
         data: str | bytes | None = self._caller.shared.custom_data.get((owner, tag))
         return self._world.file_data(owner).get(tag) if data is None else data
 
+    @differs("materials are objects; here they are those of the file")
     def getMaterialId(self, name: str) -> int:
         """Return -1: materials are those of the file."""
         return -1
 
+    @differs("it gives a shape another friction; here materials are those of the file")
     def setShapeMaterial(self, shape: Handle, material: int) -> int:
         """Accept the material of a shape: materials are those of the file. Return 1."""
         return 1
@@ -114,19 +105,23 @@ class AcceptedFunctions(LogFunctions):
     def setStepper(self, *arguments: Any) -> None:
         """Accept who steps the simulation."""
 
+    @differs(_NO_SERIAL)
     def serialOpen(self, port: Any, baud: int = 9600) -> int:
         """Return -1: serial ports cannot be opened by scripts."""
         self._warn("serialOpen", "serial ports cannot be opened")
         return -1
 
+    @differs(_NO_SERIAL)
     def serialClose(self, port: int) -> int:
         """Return 0."""
         return 0
 
+    @differs(_NO_SERIAL)
     def serialSend(self, port: int, data: Any) -> int:
         """Return 0: nothing is sent."""
         return 0
 
+    @differs(_NO_SERIAL)
     def serialRead(self, port: int, length: int = 0, *more: Any) -> None:
         """Return None (nil)."""
 

@@ -8,9 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Bytes, Handle, Integers, Vector3
 from bubblesim.scripting.api.sim.distances import DistanceFunctions
 from bubblesim.scripting.api.sim.logs import LogFunctions
+
+_TEXTURES_STAY = "textures are objects with numbers; here they are those of the file, and the shape keeps its colour"
 
 _SUFFIXES = {"png", "jpg", "jpeg", "bmp", "tga", "ppm"}
 _MOST_PIXELS = 64_000_000
@@ -35,6 +38,7 @@ class LookFunctions(DistanceFunctions, LogFunctions):
         for each in before if isinstance(before, list | tuple) else ():
             self.setShapeColor(int(each["handle"]), None, int(each["component"]), list(each["colour"]))
 
+    @differs(_TEXTURES_STAY)
     def createTexture(
         self,
         file: str = "",
@@ -50,6 +54,7 @@ class LookFunctions(DistanceFunctions, LogFunctions):
         size = [int(number) for number in resolution] if isinstance(resolution, list | tuple) else [0, 0]
         return -1, -1, size
 
+    @differs(_TEXTURES_STAY)
     def setShapeTexture(
         self,
         shape: Handle,
@@ -65,19 +70,23 @@ class LookFunctions(DistanceFunctions, LogFunctions):
         self._warn_of("setShapeTexture", "textures of scripts are not shown")
         return 1
 
+    @differs(_TEXTURES_STAY)
     def getShapeTextureId(self, shape: Handle) -> int:
         """Return -1: textures have no numbers."""
         self._tree.kind(self._resolve(shape))  # raises
         return -1
 
+    @differs(_TEXTURES_STAY)
     def getTextureId(self, name: str) -> tuple[int, list[int]]:
         """Return -1 and no resolution: textures have no numbers."""
         return -1, [0, 0]
 
+    @differs(_TEXTURES_STAY)
     def writeTexture(self, texture: int, options: int, data: Bytes, *more: Any) -> int:
         """Accept the image of a texture; return 1."""
         return 1
 
+    @differs("it changes a light; here lights stay as the scene's file has them, with a warning")
     def setLightParameters(
         self, light: Handle, state: int, reserved: Any = None, diffuse: Any = None, specular: Any = None
     ) -> int:

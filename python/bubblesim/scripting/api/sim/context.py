@@ -44,6 +44,12 @@ class ApiContext(SimConstants):
         handle = self._resolve(handle)
         return self._edits.sensors.get(handle, handle)
 
+    def _box_of(self, links: list[int], frame: int) -> tuple[list[float], list[float]] | None:
+        """Return the lowest and the highest x, y and z (m), in the frame of an object, of what collides of some links;
+        None without a shape of a finite size."""
+        found = self._world.bounds(links, self._tree.pose(frame))
+        return None if found is None else (list(found[0]), list(found[1]))
+
     def _resolve(self, handle: int) -> int:
         """Convert sim.handle_self and sim.handle_parent to the handle of an object."""
         if 0 <= handle <= MAX_HANDLE:

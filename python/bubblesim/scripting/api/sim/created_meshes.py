@@ -12,8 +12,11 @@ from bubblesim.geometry import poses
 from bubblesim.scene_state.compound_shapes import CompoundShape, members_of
 from bubblesim.scene_state.mesh_files import read_mesh
 from bubblesim.scene_state.mesh_shapes import MeshShape, centred
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Handle, Integers, Numbers, Vector3
 from bubblesim.scripting.api.sim.created_objects import CreatedObjectFunctions
+
+_FRAME_STAYS = "it changes the frame of a shape and the box around it; here they stay"
 
 _MOST_POINTS = 1_000_000  # of a height field
 
@@ -107,6 +110,7 @@ class CreatedMeshFunctions(CreatedObjectFunctions):
             "options": 0,
         }
 
+    @differs("it makes one shape of any shapes; here of those that scripts created, and attaches those of the file")
     def groupShapes(self, handles: Integers, merge: bool = False) -> int:
         """Make one body of shapes that scripts have created, and return its handle. It is static and respondable as the
         first one. Of shapes of the file, the others are attached to the first one, with a warning."""
@@ -161,6 +165,7 @@ class CreatedMeshFunctions(CreatedObjectFunctions):
             found.append(made)
         return found
 
+    @differs("it scales all objects; here dummies and created shapes, others keep their size, with a warning")
     def scaleObjects(self, handles: Integers, factor: float, positions: bool = True) -> int:
         """Scale dummies and created shapes, with their masses; with ``positions`` also their distances from the first
         one. Shapes of the file keep their size, with a warning. Return 1."""
@@ -203,21 +208,25 @@ class CreatedMeshFunctions(CreatedObjectFunctions):
         now = sim.getShapeBB(shape)
         return self.scaleObject(shape, *(max(new, 1e-6) / max(old, 1e-6) for new, old in zip(size, now, strict=True)))
 
+    @differs(_FRAME_STAYS)
     def relocateShapeFrame(self, shape: Handle, pose: Any = None) -> int:
         """Return 0: the frame of a shape stays where it is."""
         self._tree.kind(self._resolve(shape))  # raises
         return 0
 
+    @differs(_FRAME_STAYS)
     def alignShapeBB(self, shape: Handle, pose: Any = None) -> int:
         """Return 0: the box around a shape stays along the axes of its frame."""
         self._tree.kind(self._resolve(shape))  # raises
         return 0
 
+    @differs(_FRAME_STAYS)
     def reorientShapeBoundingBox(self, shape: Handle, relative_to: int = -1, reserved: Any = None) -> int:
         """Return 0: the box around a shape stays along the axes of its frame (old name)."""
         self._tree.kind(self._resolve(shape))  # raises
         return 0
 
+    @differs("it sets any inertia; here a shape has that of its form and mass, with a warning")
     def setShapeInertia(self, shape: Handle, inertia: Numbers, transformation: Any = None) -> None:
         """Accept an inertia; a shape has that of its form and mass, with a warning."""
         level = self.verbosity_scriptwarnings | self.verbosity_once

@@ -11,6 +11,7 @@ from bubblesim.scene_state.created_shapes import CreatedShape
 from bubblesim.scene_state.primitive_shapes import PrimitiveShape
 from bubblesim.scene_state.text_shapes import text_sdf
 from bubblesim.scripting.api.checked_calls import refusal_warns
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Handle, Integers, Numbers, Vector3
 from bubblesim.scripting.api.sim.logs import LogFunctions
 from bubblesim.scripting.api.sim.object_changes import ObjectChangeFunctions
@@ -31,6 +32,7 @@ class CreatedObjectFunctions(ObjectChangeFunctions, LogFunctions):
             dummy.colours[self.colorcomponent_ambient_diffuse] = list(colour[:3])
         return dummy.handle
 
+    @differs("it makes joints that physics moves, too; here all links of a mechanism are built at once, from files")
     def createJoint(
         self, joint_type: int, mode: int = 0, options: int = 0, sizes: Any = None, colour: Any = None, more: Any = None
     ) -> int:

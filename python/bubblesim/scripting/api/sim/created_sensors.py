@@ -5,17 +5,20 @@ from __future__ import annotations
 
 from typing import Any
 
-from bubblesim.scene_state.created_sensors import CreatedSensor, proximity_sensor, vision_sensor
+from bubblesim.scene_state.created_sensors import proximity_sensor, vision_sensor
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Integers, Numbers
 from bubblesim.scripting.api.sim.created_objects import CreatedObjectFunctions
+from bubblesim.scripting.api.sim.sensor_changes import SensorChangeFunctions
 
 _PERSPECTIVE = 2  # option of createVisionSensor
 
 
-class CreatedSensorFunctions(CreatedObjectFunctions):
+class CreatedSensorFunctions(CreatedObjectFunctions, SensorChangeFunctions):
     """A created sensor looks along the z axis of its object, which can be moved and attached to others; on a body it
     moves along. It stays until it is removed or the scene is closed."""
 
+    @differs("all options and parameters count; here the range, sizes and angles")
     def createProximitySensor(
         self, kind: int, subtype: int, options: int, integers: Integers, floats: Numbers, more: Any = None
     ) -> int:
@@ -26,6 +29,7 @@ class CreatedSensorFunctions(CreatedObjectFunctions):
         smallest distance (m); the others, ``subtype``, ``options`` and ``integers`` have no effect."""
         return self._add_sensor(proximity_sensor(kind, floats))
 
+    @differs("all options and parameters count; here resolution, planes, angle and perspective")
     def createVisionSensor(self, options: int, integers: Integers, floats: Numbers, more: Any = None) -> int:
         """Create a camera at the origin and return its handle; not in sysCall_sensing.
 
@@ -36,9 +40,3 @@ class CreatedSensorFunctions(CreatedObjectFunctions):
         rate = 1 / float(self._simulation.time_step)
         is_perspective = bool(options & _PERSPECTIVE)
         return self._add_sensor(vision_sensor(integers[0], integers[1], floats, rate, is_perspective=is_perspective))
-
-    def _add_sensor(self, sensor: CreatedSensor) -> int:
-        model = self._add_model(sensor.sdf(), sensor.name)
-        made = self._tree.object_of(model)
-        self._edits.sensors[made] = int(self._world.parts(model, "sensor")[0])
-        return made

@@ -6,8 +6,11 @@ from __future__ import annotations
 from typing import Any
 
 from bubblesim.scene_state.panels import Panel, Widget
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import StringOrNothing
 from bubblesim.scripting.api.sim.context import ApiContext
+
+_MODAL = "a modal dialog waits for the user; here the call returns at once"
 
 _MOST_LINES = 10_000
 _NO_PLACE: list[int] = []
@@ -17,6 +20,7 @@ class DialogFunctions(ApiContext):
     """The window shows dialogs and consoles in its panel Dialogs. Nothing waits for a user: a modal dialog is open,
     too, when the function returns. They end with their script."""
 
+    @differs(_MODAL)
     def displayDialog(
         self,
         title: str,
@@ -60,12 +64,14 @@ class DialogFunctions(ApiContext):
         self._close_panel(dialog)
         return 1
 
+    @differs(_MODAL)
     def msgBox(self, kind: int, buttons: int, title: str, message: str) -> int:
         """Open a dialog with a message; return sim.msgbox_return_ok or msgbox_return_yes at once."""
         self.displayDialog(title, message, self.dlgstyle_ok)
         with_yes = (self.msgbox_buttons_yesno, self.msgbox_buttons_yesnocancel)
         return self.msgbox_return_yes if buttons in with_yes else self.msgbox_return_ok
 
+    @differs(_MODAL)
     def fileDialog(
         self, mode: int, title: str, path: str, name: str, extension_name: str, extension: str
     ) -> str | None:

@@ -7,10 +7,13 @@ import math
 
 from bubblesim.scene_state.compound_shapes import CompoundShape
 from bubblesim.scene_state.primitive_shapes import PrimitiveShape
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Handle
 from bubblesim.scripting.api.sim.logs import LogFunctions
 from bubblesim.scripting.api.sim.object_changes import ObjectChangeFunctions
 from bubblesim.scripting.api.sim.object_collections import CollectionFunctions
+
+_NOT_READ = "objects of scenes before 4.2 are handled; here they are not read: use checkCollision and checkDistance"
 
 _NO_LIMIT = 1e9  # m
 
@@ -27,8 +30,11 @@ class DistanceFunctions(ObjectChangeFunctions, CollectionFunctions, LogFunctions
             return 0, []
         return 1, [self._shape_of(found[3]), self._shape_of(found[4])]
 
+    @differs("it returns the segments in which surfaces intersect; here one pair of points")
     def checkCollisionEx(self, first: int, second: int) -> tuple[int, list[float]]:
-        """Return 1 if two entities touch or overlap, else 0, and a segment at a place where they do, 6 numbers."""
+        """Return 1 if two entities touch or overlap, else 0, and their nearest points, 6 numbers.
+
+        If they overlap, it is twice a point of one of them."""
         found = self._nearest(first, second, 0.0, self.objectspecialproperty_collidable)
         return (0, []) if found is None else (1, [*found[1], *found[2]])
 
@@ -45,28 +51,34 @@ class DistanceFunctions(ObjectChangeFunctions, CollectionFunctions, LogFunctions
         distance, on_first, on_second, link, other = found
         return 1, [*on_first, *on_second, distance], [self._shape_of(link), self._shape_of(other)]
 
+    @differs(_NOT_READ)
     def getCollisionHandle(self, name: str) -> int:
         """Accept the name of a collision object of old scenes, with a warning: use checkCollision. Return 0."""
         self._use("getCollisionHandle", f"the collision object '{name}' is not read: use sim.checkCollision")
         return 0
 
+    @differs(_NOT_READ)
     def getDistanceHandle(self, name: str) -> int:
         """Accept the name of a distance object of old scenes, with a warning: use checkDistance. Return 0."""
         self._use("getDistanceHandle", f"the distance object '{name}' is not read: use sim.checkDistance")
         return 0
 
+    @differs(_NOT_READ)
     def handleCollision(self, collision: int = -2) -> int:
         """Return 0: there are no collision objects (main scripts)."""
         return 0
 
+    @differs(_NOT_READ)
     def readCollision(self, collision: int) -> int:
         """Return 0: there are no collision objects."""
         return 0
 
+    @differs(_NOT_READ)
     def handleDistance(self, distance: int = -2) -> tuple[int, float]:
         """Return 0 and 0.0: there are no distance objects (main scripts)."""
         return 0, 0.0
 
+    @differs(_NOT_READ)
     def readDistance(self, distance: int) -> tuple[int, float]:
         """Return 0 and 0.0: there are no distance objects."""
         return 0, 0.0
@@ -127,11 +139,10 @@ class DistanceFunctions(ObjectChangeFunctions, CollectionFunctions, LogFunctions
         self.addLog(self.verbosity_scriptwarnings | self.verbosity_once, f"sim.{function}: {why}")
 
     def _bounds(self, handle: int) -> tuple[list[float], list[float]]:
-        found = self._world.bounds(self._links(handle), self._tree.pose(handle))
+        found = self._box_of(self._links(handle), handle)
         if found is None:
             raise ValueError(f"{self._tree.short_path(handle)} has no shape of a finite size that collides")
-        low, high = found
-        return list(low), list(high)
+        return found
 
     def _shape_of(self, link: int) -> int:
         """Return the object that scripts know for a link: its model, if it has one link."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from bubblesim._core import RunState
 from bubblesim.scene_state.object_collections import Collection, Item
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Handle
 from bubblesim.scripting.api.sim.context import ApiContext
 
@@ -15,6 +16,7 @@ class CollectionFunctions(ApiContext):
     """Sets of objects, for sensors that detect these alone. A collection that is created while the simulation runs ends
     with the run."""
 
+    @differs("options make copies that stay; here a collection always follows the tree")
     def createCollection(self, options: int = 0) -> int:
         """Create an empty collection and return its handle; the options have no effect."""
         return self._caller.shared.collections.create(temporary=self._runner.state != RunState.STOPPED)

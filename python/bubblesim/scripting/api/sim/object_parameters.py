@@ -9,16 +9,20 @@ from typing import Any
 
 from bubblesim._core import WrongObject, camera_optics
 from bubblesim.scripting.api.checked_calls import refusal_warns
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Handle
 from bubblesim.scripting.api.sim.joints import JointFunctions
-from bubblesim.scripting.api.sim.object_changes import ObjectChangeFunctions
 from bubblesim.scripting.api.sim.object_collections import CollectionFunctions
+from bubblesim.scripting.api.sim.sensor_changes import SensorChangeFunctions
+
+_ENGINE_KEPT = "it reads a parameter of a physics engine; here what scripts set is kept, without effect on the physics"
+_ENGINE_SET = "it sets a parameter of a physics engine; here the number is kept, without effect on the physics"
 
 _OF_OBJECTS = ("obj", "vision", "joint", "shape", "prox", "force", "light", "camera", "dummy")
 _OF_ENGINES = ("bullet", "ode", "newton")
 
 
-class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, CollectionFunctions):
+class ObjectParameterFunctions(JointFunctions, SensorChangeFunctions, CollectionFunctions):
     """Parameters of objects by their number, sim.jointfloatparam_velocity for example. Those without effect here, such
     as the settings of other physics engines, keep what is set; they are 0 before."""
 
@@ -38,7 +42,7 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         """Set sim.jointintparam_dynctrlmode, the control mode of a joint, or motor_enabled and ctrl_enabled, or
         proxintparam_entity_to_detect, the object or collection that a proximity sensor detects, until the scene is
         reset; or of a model sim.shapeintparam_static (1: physics does not move it), of a created shape
-        sim.shapeintparam_respondable."""
+        sim.shapeintparam_respondable, of a created camera visionintparam_resolution_x and y."""
         handle = self._resolve(handle)
         write = self._settable_integers().get(parameter)
         if write is not None:
@@ -101,26 +105,32 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         """Set a flag of an object, an integer parameter."""
         self.setObjectInt32Param(handle, parameter, int(value))
 
+    @differs(_ENGINE_KEPT)
     def getEngineInt32Param(self, parameter: int, handle: int = -1, data: object = None, ok: object = None) -> int:
         """Return an integer that was set for a physics engine; 0 if none was. Settings of engines have no effect."""
         return int(self._kept_of_engine(int, parameter, handle))
 
+    @differs(_ENGINE_SET)
     def setEngineInt32Param(self, parameter: int, handle: int, data: Any, value: Any = None) -> None:
         """Keep an integer for a physics engine; its arguments are parameter, handle, data (nil) and value."""
         self._keep_of_engine(int, parameter, handle, data if value is None else value)
 
+    @differs(_ENGINE_KEPT)
     def getEngineFloatParam(self, parameter: int, handle: int = -1, data: object = None, ok: object = None) -> float:
         """Return a number that was set for a physics engine; 0 if none was. Settings of engines have no effect."""
         return float(self._kept_of_engine(float, parameter, handle))
 
+    @differs(_ENGINE_SET)
     def setEngineFloatParam(self, parameter: int, handle: int, data: Any, value: Any = None) -> None:
         """Keep a number for a physics engine; its arguments are parameter, handle, data (nil) and value."""
         self._keep_of_engine(float, parameter, handle, data if value is None else value)
 
+    @differs(_ENGINE_KEPT)
     def getEngineBoolParam(self, parameter: int, handle: int = -1, data: object = None, ok: object = None) -> bool:
         """Return a flag that was set for a physics engine; false if none was. Settings of engines have no effect."""
         return bool(self._kept_of_engine(bool, parameter, handle))
 
+    @differs(_ENGINE_SET)
     def setEngineBoolParam(self, parameter: int, handle: int, data: Any, value: Any = None) -> None:
         """Keep a flag for a physics engine; its arguments are parameter, handle, data (nil) and value."""
         self._keep_of_engine(bool, parameter, handle, data if value is None else value)
@@ -131,6 +141,7 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         own = 0 if self._world.is_model_base(handle) else self.modelproperty_not_model
         return int(self._caller.shared.settings.get((int, f"model property {handle}"), own))
 
+    @differs("flags hide, disable ... a model; here they are kept, without effect")
     def setModelProperty(self, handle: Handle, value: int) -> None:
         """Keep flags of a model, sim.modelproperty_not_visible for example; they have no effect."""
         handle = self._resolve(handle)
@@ -141,6 +152,7 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         """Return flags of an object, sim.objectproperty_selectable for example, or what was set."""
         return self._flags(handle, "property", self.objectproperty_selectable)
 
+    @differs("flags hide, lock ... an object; here they are kept, without effect")
     def setObjectProperty(self, handle: Handle, value: int) -> None:
         """Keep flags of an object; they have no effect."""
         self._keep_flags(handle, "property", value)
@@ -158,6 +170,7 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         is_shape = self._tree.kind(handle) in ("model", "link", "shape")
         return self._flags(handle, "special property", all_of_a_shape if is_shape else 0)
 
+    @differs("it also sets what sensors detect; here sim.proxintparam_entity_to_detect and collections do")
     def setObjectSpecialProperty(self, handle: Handle, value: int) -> None:
         """Keep what else an object is. sim.checkCollision and checkDistance leave out shapes that are not collidable or
         measurable; for sensors it has no effect, use sim.proxintparam_entity_to_detect."""
@@ -181,12 +194,8 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
             self.jointintparam_ctrl_enabled: lambda joint: int(self._control_mode(joint) == self.jointdynctrl_position),
             self.shapeintparam_static: lambda shape: int(self._is_static(shape)),
             self.shapeintparam_respondable: lambda shape: int(self._is_respondable(shape)),
-            self.visionintparam_resolution_x: lambda camera: int(
-                camera_optics(self._simulation, self._sensor(camera))[0]
-            ),
-            self.visionintparam_resolution_y: lambda camera: int(
-                camera_optics(self._simulation, self._sensor(camera))[1]
-            ),
+            self.visionintparam_resolution_x: lambda camera: self._optics_of(camera)[0],
+            self.visionintparam_resolution_y: lambda camera: self._optics_of(camera)[1],
             self.proxintparam_entity_to_detect: self._entity_to_detect,
         }
 
@@ -198,6 +207,8 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
             self.shapeintparam_static: lambda shape, value: self._set_static(shape, value != 0),
             self.shapeintparam_respondable: lambda shape, value: self._set_respondable(shape, value != 0),
             self.proxintparam_entity_to_detect: self._set_entity_to_detect,
+            self.visionintparam_resolution_x: lambda camera, value: self._set_pixels(camera, columns=value),
+            self.visionintparam_resolution_y: lambda camera, value: self._set_pixels(camera, rows=value),
         }
 
     def _side_of_box(self, handle: int, side: int) -> float:
@@ -206,7 +217,7 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
             return 0.0
         is_link = self._tree.kind(handle) == "link"
         links = [handle] if is_link and side < 6 else self._world.parts(self._tree.model(handle), "link")
-        found = self._world.bounds(links, self._tree.pose(handle))
+        found = self._box_of(links, handle)
         return 0.0 if found is None else float([*found[0], *found[1]][side % 6])
 
     def _floats(self) -> dict[int, Callable[[int], float]]:
@@ -214,9 +225,7 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
         return {
             self.jointfloatparam_velocity: lambda joint: float(self._world.joint_velocity(joint)),
             self.jointfloatparam_upper_limit: lambda joint: float(self._world.joint_limits(joint)[1]),
-            self.visionfloatparam_perspective_angle: lambda camera: float(
-                camera_optics(self._simulation, self._sensor(camera))[2]
-            ),
+            self.visionfloatparam_perspective_angle: self._angle_of_view,
             self.objfloatparam_size_factor: lambda handle: 1.0,
             self.shapefloatparam_mass: lambda shape: self.getShapeMass(self._shown(shape)),
         }
@@ -227,7 +236,12 @@ class ObjectParameterFunctions(JointFunctions, ObjectChangeFunctions, Collection
 
     def _optics_of(self, camera: int) -> tuple[int, int, float]:
         columns, rows, angle = camera_optics(self._simulation, self._sensor(camera))
-        return columns, rows, angle
+        return int(columns), int(rows), float(angle)
+
+    def _angle_of_view(self, camera: int) -> float:
+        """Return the angle of a camera's larger side, rad."""
+        columns, rows, angle = self._optics_of(camera)
+        return angle if columns >= rows else 2 * math.atan(math.tan(angle / 2) * rows / columns)
 
     def _control_mode(self, joint: int) -> int:
         if self._edits.callback_joints.get(joint, self._world.is_driven_by_callback(joint)):

@@ -47,6 +47,13 @@ def _axis(sim: Any, handle: int) -> list[float]:
     return [part / speed for part in angular] if speed > 0 else [0.0, 0.0, 0.0]
 
 
+def _set_resolution(sim: Any, handle: int, value: Any) -> None:
+    for parameter, pixels in zip(
+        (Sim.visionintparam_resolution_x, Sim.visionintparam_resolution_y), value, strict=True
+    ):
+        sim.setObjectInt32Param(handle, parameter, int(pixels))
+
+
 def _set_velocity(first: int) -> Set:
     def write(sim: Any, handle: int, value: Any) -> None:
         for number, part in enumerate(value):
@@ -133,7 +140,7 @@ OF_OBJECTS: dict[str, Property] = {
     "targetForce": Property(
         lambda sim, h: sim.getJointTargetForce(h), lambda sim, h, v: sim.setJointTargetForce(h, v), _JOINT
     ),
-    "resolution": Property(lambda sim, h: list(sim.getVisionSensorRes(h)), types=_CAMERA),
+    "resolution": Property(lambda sim, h: list(sim.getVisionSensorRes(h)), _set_resolution, types=_CAMERA),
     "name": Property(lambda sim, h: sim.getObjectAlias(h), lambda sim, h, v: sim.setObjectAlias(h, v)),
     "deprecatedName": Property(lambda sim, h: sim.getObjectName(h)),
     "uid": Property(lambda sim, h: sim.getObjectUid(h)),

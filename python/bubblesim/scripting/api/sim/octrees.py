@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Handle, Numbers
 from bubblesim.scripting.api.sim.created_meshes import CreatedMeshFunctions
 
@@ -16,6 +17,7 @@ class OctreeFunctions(CreatedMeshFunctions):
     """An octree is a dummy with a set of voxels, cubes of one size in its frame. It has no effect on sensors and
     collisions."""
 
+    @differs("sensors and collisions take it into account; here they do not")
     def createOctree(self, size: float, options: int = 0, point_size: float = 1.0, reserved: Any = None) -> int:
         """Create an octree without voxels at the origin and return its handle; ``size`` of a voxel in m."""
         if not size > 0:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Handle, StringOrNothing, Vector12
 from bubblesim.scripting.api.sim.logs import LogFunctions
 
@@ -76,6 +77,7 @@ class OldFunctions(LogFunctions):
         scripts = self._caller.shared.scripts
         return handle if scripts is not None and scripts.has_script(handle) else -1
 
+    @differs("objects may have customization scripts; here they are not run")
     def getCustomizationScriptAssociatedWithObject(self, handle: Handle) -> int:
         """Return -1: there are no customization scripts."""
         self._tree.kind(self._resolve(handle))  # raises
@@ -128,6 +130,7 @@ class OldFunctions(LogFunctions):
         """Return None (nil): errors are raised."""
         return None
 
+    @differs("messages of its window wait in a queue; here none: callbacks of simUI get events")
     def getSimulatorMessage(self) -> tuple[int, list[int], list[int]]:
         """Return -1: no message of a window waits. Callbacks of simUI get events of widgets."""
         return -1, [0, 0, 0, 0], []
@@ -136,6 +139,7 @@ class OldFunctions(LogFunctions):
         """Accept whether a sensor is handled by scripts; all are handled when they are due. Return 1."""
         return 1
 
+    @differs("some sensors are handled by scripts only; here all when they are due")
     def getExplicitHandling(self, handle: int) -> int:
         """Return 0: sensors are handled when they are due."""
         return 0

@@ -9,6 +9,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Numbers
 from bubblesim.scripting.api.sim.logs import LogFunctions
 from bubblesim.scripting.api.sim.object_parameters import ObjectParameterFunctions
@@ -59,6 +60,9 @@ class ParameterFunctions(ObjectParameterFunctions, RandomFunctions, LogFunctions
         """Return a parameter of the simulator that is true or false."""
         return bool(self._get_parameter("boolparam", bool, parameter, self._facts(), self._drawing_flags()))
 
+    @differs(
+        "it switches real time, dynamics, sensors ...; here the node's option --speed sets the pace, and all is handled"
+    )
     def setBoolParam(self, parameter: int, value: bool) -> None:
         """Set a parameter of the simulator; sim.boolparam_realtime_simulation, and what is handled, stay as they are,
         with a warning: real time depends on the node's option --speed."""

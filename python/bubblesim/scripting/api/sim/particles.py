@@ -7,6 +7,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Any
 
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Handle, Numbers
 from bubblesim.scripting.api.sim.drawings import DrawingFunctions
 
@@ -28,6 +29,7 @@ class _Particles:
 class ParticleFunctions(DrawingFunctions):
     """Particles fly under gravity and are drawn; they collide with nothing. Point clouds are drawn."""
 
+    @differs("particles may collide; here they fly through objects")
     def addParticleObject(
         self,
         kind: int,
@@ -82,6 +84,7 @@ class ParticleFunctions(DrawingFunctions):
         self.removeDrawingObject(particles)
         return 1
 
+    @differs("sensors and collisions take it into account; here they do not")
     def createPointCloud(
         self, size: float = 0.02, most: int = 20, options: int = 0, point_size: float = 2.0, reserved: object = None
     ) -> int:

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from bubblesim.geometry import poses, rotations
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Handle, Numbers, Vector3
 from bubblesim.scripting.api.sim import path_points
 from bubblesim.scripting.api.sim.objects import ObjectFunctions
@@ -27,23 +28,30 @@ class PathFunctions(ObjectFunctions):
     def createPath(
         self,
         points: Any,
-        options: int = 0,
-        subdivision: int = 100,
-        smoothness: float = 1.0,
+        options: Any = 0,
+        subdivision: Any = 100,
+        smoothness: Any = 1.0,
         orientation_mode: int = 0,
         up: Vector3 = _UP,
     ) -> int:
         """Create a path and return its handle: ``points`` are poses, 7 numbers each. Options: 2 closed. It has
-        ``subdivision`` points on a curve, straight for ``smoothness`` 0; orientation mode 0 turns x along the path."""
+        ``subdivision`` points on a curve, straight for ``smoothness`` 0; orientation mode 0 turns x along the path.
+        The old form, with attributes in place of the points and parameters and colours for drawings, creates a path
+        without points, for insertPathCtrlPoints."""
+        if isinstance(points, int):
+            return self._empty_path()
         configs = path_points.rows([float(number) for number in points], 7)
-        closed = bool(options & _CLOSED)
-        made = self._smoothed(configs, max(2, subdivision), smoothness, closed=closed)
+        closed = bool(int(options) & _CLOSED)
+        made = self._smoothed(configs, max(2, int(subdivision)), float(smoothness), closed=closed)
         if orientation_mode == 0:
             _turn_along(made, up)
-        handle = self._caller.shared.dummies.create(self._world, "Path", 0.01, temporary=not self._is_stopped()).handle
+        handle = self._empty_path()
         self._write_points(handle, "PATHCTRLPTS", configs)
         self._write_points(handle, "PATH", made)
         return handle
+
+    def _empty_path(self) -> int:
+        return self._caller.shared.dummies.create(self._world, "Path", 0.01, temporary=not self._is_stopped()).handle
 
     def getPathLengths(self, path: Numbers, size: int, distance: Any = None) -> tuple[list[float], float]:
         """Return the lengths of a path up to each configuration of ``size`` numbers, and its length. ``distance`` is a
@@ -101,6 +109,7 @@ class PathFunctions(ObjectFunctions):
         self._caller.shared.settings[float, f"position on path {self._resolve(path)}"] = position
         return 1
 
+    @differs("a path moves its position at this velocity; here scripts call setPathPosition")
     def setPathTargetNominalVelocity(self, path: Handle, velocity: float) -> int:
         """Keep the velocity of a path (old name), which has no effect; return 1."""
         self._path(path)

@@ -7,6 +7,7 @@ import shlex
 import subprocess
 
 from bubblesim.scripting.allowed_programs import find_program, refused_argument
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.sim.logs import LogFunctions
 
 _MOST_RUNNING = 64  # programs of one caller
@@ -15,6 +16,7 @@ _MOST_RUNNING = 64  # programs of one caller
 class ProgramFunctions(LogFunctions):
     """Programs started by a script end with it, together with their child processes."""
 
+    @differs("it starts any program; here Lua scripts and remote clients start those that are allowed")
     def launchExecutable(self, file: str, arguments: str = "", show_status: int = 1) -> int:
         """Start a program of this package or on PATH; ``arguments`` is split as in a shell.
 

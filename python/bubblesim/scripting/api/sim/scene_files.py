@@ -9,6 +9,7 @@ from typing import Any
 
 from bubblesim._core import SceneError, scene_folders
 from bubblesim.scene_state.saved_scene import scene_text, write_scene
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.functions import for_remote_only
 from bubblesim.scripting.api.sim.browser_models import browser_model, suggestion
 from bubblesim.scripting.api.sim.created_sensors import CreatedSensorFunctions
@@ -22,6 +23,9 @@ class SceneFileFunctions(CreatedSensorFunctions):
     A Python script, and a client of a node with --remote-trusted, can also give the path of an .sdf, .ttt or .ttm file;
     an .sdf file of the same name beside it comes first."""
 
+    @differs(
+        "it loads any file, also for scripts; here the scene of that name in the folders of scenes, for remote clients"
+    )
     @for_remote_only
     def loadScene(self, file: str) -> Any:
         """Stop the simulation and load another scene; return 1. An empty name loads the empty scene.
@@ -32,11 +36,13 @@ class SceneFileFunctions(CreatedSensorFunctions):
         """
         raise RuntimeError("sim.loadScene needs a running node")
 
+    @differs("scripts may call it; here remote clients alone")
     @for_remote_only
     def closeScene(self) -> Any:
         """Stop the simulation and go on with an empty scene, a ground plane; return 1. For remote clients only."""
         raise RuntimeError("sim.closeScene needs a running node")
 
+    @differs("it writes a .ttt file; here one in SDFormat")
     @for_remote_only
     def saveScene(self, file: str, overwrite: bool = False) -> int:
         """Write the scene of a stopped simulation to an .sdf file, which takes the place of a .ttt file; return 1.

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Handle
 from bubblesim.scripting.api.sim.context import ApiContext
 from bubblesim.scripting.api.sim.scripts import ScriptFunctions
@@ -84,6 +85,7 @@ class ScriptStringFunctions(ScriptFunctions, ApiContext):
         """Return an empty string: errors of scripts are logged with their calls."""
         return ""
 
+    @differs("functions are called before or after a callback; here only the callback of the script itself")
     def registerScriptFuncHook(self, function: str, hook: Any, before: bool = False) -> int:
         """Return -1: callbacks of the script itself are called, hooks are not."""
         return -1

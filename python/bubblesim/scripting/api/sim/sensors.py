@@ -18,6 +18,7 @@ from bubblesim._core import (
     reading_time,
 )
 from bubblesim.geometry import poses
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Handle, Numbers
 from bubblesim.scripting.api.sim.object_collections import CollectionFunctions
 
@@ -30,11 +31,13 @@ class SensorFunctions(CollectionFunctions):
     """Proximity sensors return (result, distance, point, object, normal) in the sensor's frame, metres. They detect the
     nearest object if it belongs to sim.proxintparam_entity_to_detect, by default all but their own model."""
 
+    @differs("the result is -1 before the first step; here it measures then")
     def readProximitySensor(self, sensor: Handle) -> Reading:
         """Return the last measurement; result 0 and distance 0.0 if nothing was detected."""
         sensor = self._sensor(sensor)
         return self._detected(read_proximity(self._simulation, sensor), sensor)
 
+    @differs("with sim.handle_all, all sensors measure; here they do when they are due")
     def handleProximitySensor(self, sensor: Handle) -> Reading:
         """Measure now; for sim.handle_all, and handle_all_except_explicit, nothing: sensors measure when they are
         due."""
@@ -59,6 +62,7 @@ class SensorFunctions(CollectionFunctions):
         reading = self.checkProximitySensor(sensor, entity)
         return reading if threshold <= 0 or reading[1] >= threshold else _NOTHING
 
+    @differs("the nearest place of segments and triangles in its volume counts; here their corners within its range")
     def checkProximitySensorEx2(
         self,
         sensor: Handle,
@@ -76,8 +80,11 @@ class SensorFunctions(CollectionFunctions):
         corners = vertices[: count * per_item]
         pose = self._tree.pose(self._resolve(sensor))
         low, high = self._world.sonar_limits(self._sensor(sensor))[:2]
-        points = [poses.transform(poses.inverse(pose), corners[i : i + 3]) for i in range(0, len(corners) - 2, 3)]
-        seen = [point for point in points if point[2] > 0 and low <= math.hypot(*point) <= high]
+        places = [corners[i : i + 3] for i in range(0, len(corners) - 2, 3)]
+        looks = poses.inverse([float(part) for part in self._world.pose(self._sensor(sensor))])  # along x
+        ahead = [place for place in places if poses.transform(looks, place)[0] > 0]
+        points = [poses.transform(poses.inverse(pose), place) for place in ahead]
+        seen = [point for point in points if low <= math.hypot(*point) <= high]
         if not seen:
             return 0, 0.0, [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
         nearest = min(seen, key=lambda point: math.hypot(*point))

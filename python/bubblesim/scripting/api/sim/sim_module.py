@@ -41,6 +41,7 @@ from bubblesim.scripting.api.sim.selection import SelectionFunctions
 from bubblesim.scripting.api.sim.sensors import SensorFunctions
 from bubblesim.scripting.api.sim.signals import SignalFunctions
 from bubblesim.scripting.api.sim.simulator_functions import SimulatorFunctions
+from bubblesim.scripting.api.sim.spherical_joints import SphericalJointFunctions
 from bubblesim.scripting.api.sim.threads import ThreadFunctions
 from bubblesim.scripting.api.sim.times import TimeFunctions
 from bubblesim.scripting.api.sim.tubes import TubeFunctions
@@ -61,6 +62,7 @@ class SimApi(
     MatrixFunctions,
     ParameterFunctions,
     JointFunctions,
+    SphericalJointFunctions,
     ForceFunctions,
     SensorFunctions,
     VisionFunctions,

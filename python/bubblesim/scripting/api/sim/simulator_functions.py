@@ -5,8 +5,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import StringOrNothing
 from bubblesim.scripting.api.sim.logs import LogFunctions
+
+_REAL_TIME = "the simulator runs in real time if its parameter is set; here the node's option --speed sets it"
 
 
 class SimulatorFunctions(LogFunctions):
@@ -73,14 +76,17 @@ class SimulatorFunctions(LogFunctions):
         sim.setNamedStringParam(name, value or "")
         return 1
 
+    @differs(_REAL_TIME)
     def getRealTimeSimulation(self) -> int:
         """Return 0: the node's option --speed sets how fast simulated time runs."""
         return 0
 
+    @differs(_REAL_TIME)
     def isRealTimeSimulationStepNeeded(self) -> int:
         """Return 0: the node waits for real time itself."""
         return 0
 
+    @differs(_REAL_TIME)
     def adjustRealTimeTimer(self, instance: int, seconds: float) -> int:
         """Accept a change of real time, without effect; return 1."""
         return 1
@@ -137,6 +143,7 @@ class SimulatorFunctions(LogFunctions):
         """Accept that dialogs are to be drawn again; return 1."""
         return 1
 
+    @differs("its window has several pages; here it has one")
     def getPage(self) -> int:
         """Return 0: the window has one page."""
         return 0
@@ -145,6 +152,7 @@ class SimulatorFunctions(LogFunctions):
         """Accept a page of the original's window; return 1."""
         return 1
 
+    @differs("its window has one navigation mode; here each page of the window has its own")
     def getNavigationMode(self) -> int:
         """Return 0: each page of the window has its own."""
         return 0
@@ -169,14 +177,17 @@ class SimulatorFunctions(LogFunctions):
         """Return no bytes: textures are those of the file."""
         return b""
 
+    @differs("it uses a serial port; here scripts open none")
     def serialCheck(self, port: int) -> int:
         """Return 0: serial ports cannot be opened by scripts."""
         return 0
 
+    @differs("it writes an old user interface to a file; here it does not")
     def saveUI(self, *arguments: Any) -> int:
         """Return 0: the old user interfaces are not written."""
         return 0
 
+    @differs("it opens old user interfaces of a file; here it does not")
     def loadUI(self, *arguments: Any) -> int:
         """Return 0: the old user interfaces are not read."""
         return 0

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from bubblesim._core import camera_optics, measure_camera, override_image, read_camera, read_lidar
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Bytes, Handle, Integers
 from bubblesim.scripting.api.sim.object_collections import CollectionFunctions
 
@@ -110,6 +111,7 @@ class VisionFunctions(CollectionFunctions):
         more = [np.frombuffer(_raw(packet), np.float32).tolist() for packet in packets]
         return (int(triggered), _statistics(read_camera(self._simulation, handle)), *more)
 
+    @differs("with sim.handle_all, all cameras measure; here they do when they are due")
     def handleVisionSensor(self, sensor: Handle) -> Packets:
         """Measure now; return the same as readVisionSensor; for sim.handle_all, and handle_all_except_explicit,
         nothing: cameras measure when they are due."""

@@ -8,11 +8,14 @@ from typing import Any
 
 from bubblesim.program.output import write_line
 from bubblesim.scene_state.panels import Panel, Widget
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.functions import script_module
 from bubblesim.scripting.api.named_constants import Names
 from bubblesim.scripting.api.ui.tables_and_plots import TableAndPlotFunctions
 from bubblesim.scripting.api.ui.widgets import WidgetFunctions, switch_others_off
 from bubblesim.scripting.api.ui.xml_widgets import parse
+
+_MODAL = "a modal dialog waits for the user; here the call returns at once"
 
 
 @script_module("simUI")
@@ -119,6 +122,7 @@ class SimUi(WidgetFunctions, TableAndPlotFunctions):
         """Let a user operate a user interface, or not."""
         self._set(self._panel(ui).root, "enabled", enabled)
 
+    @differs(_MODAL)
     def msgBox(self, kind: int, buttons: int, title: str, message: str) -> int:
         """Write a message to the terminal; return simUI.msgbox_result_ok or msgbox_result_yes, because nobody can be
         waited for."""
@@ -126,6 +130,7 @@ class SimUi(WidgetFunctions, TableAndPlotFunctions):
         with_yes = (self.msgbox_buttons_yesno, self.msgbox_buttons_yesnocancel)
         return self.msgbox_result_yes if buttons in with_yes else self.msgbox_result_ok
 
+    @differs(_MODAL)
     def fileDialog(
         self, kind: int, title: str, path: str, name: str, extension: str, filter_name: str = "", native: bool = False
     ) -> list[str]:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from bubblesim.scene_state.panels import Widget
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.kinds import Bytes
 from bubblesim.scripting.api.ui.context import UiContext
 
@@ -157,6 +158,7 @@ class WidgetFunctions(UiContext):
         """Accept the address of the text browser; it has no effect."""
         self._widget(ui, widget)
 
+    @differs("it returns the field in which the user writes; here pages know alone")
     def getCurrentEditWidget(self, ui: int) -> int:
         """Return -1: pages know alone in which field a user writes."""
         self._panel(ui)

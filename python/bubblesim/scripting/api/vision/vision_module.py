@@ -13,6 +13,7 @@ import numpy as np
 from bubblesim._core import camera_optics, override_image, read_camera
 from bubblesim.scene_state.handle_error import MAX_HANDLE, HandleError
 from bubblesim.scene_state.object_tree import acting_object
+from bubblesim.scripting.api.differences import differs
 from bubblesim.scripting.api.functions import script_module
 from bubblesim.scripting.api.kinds import Handle, Integers, Numbers, Vector3
 from bubblesim.scripting.api.vision import work_images
@@ -71,6 +72,7 @@ class SimVision:
         pixels = np.ascontiguousarray((image[::-1] * 255 + 0.5).astype(np.uint8))
         override_image(self._simulation, self._resolve(sensor), pixels.tobytes())
 
+    @differs("it replaces the depths of a camera; here the camera keeps its own")
     def workImgToSensorDepthMap(self, sensor: Handle, remove_buffer: bool = True) -> None:
         """Accept depths for a camera, which keeps its own."""
         self._work(sensor)
