@@ -7,14 +7,17 @@ import signal
 import tempfile
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 # A shell starts background jobs with SIGINT ignored, and their children inherit that: Ctrl-C would have no effect.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGHUP, signal.SIG_DFL)  # likewise for nohup
 
-# A commit passes or fails as the one before it; --hypothesis-profile=default draws new examples each time.
-settings.register_profile("suite", derandomize=True)
+# On a busy machine an example may take any time.
+_at_leisure = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
+# A commit passes or fails as the one before it; --hypothesis-profile=explore draws new examples each time.
+settings.register_profile("suite", _at_leisure, derandomize=True)
+settings.register_profile("explore", _at_leisure)
 settings.load_profile("suite")
 
 pytest_plugins = ["ros_support", "web_support"]

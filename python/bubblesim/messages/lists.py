@@ -21,7 +21,8 @@ class Entry:
 def read_list(path: Path, shown_as: str, problems: list[str], warnings: list[str]) -> list[Entry]:
     """Return the entries of a list file; add malformed lines to `problems`, duplicates to `warnings`."""
     entries: dict[str, Entry] = {}
-    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+    # A byte that is not UTF-8 is no part of a type's name; in a comment it does not matter.
+    for number, line in enumerate(path.read_text(encoding="utf-8", errors="replace").splitlines(), start=1):
         text = _content(line)
         if not text:
             continue

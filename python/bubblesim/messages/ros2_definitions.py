@@ -187,7 +187,7 @@ def _default(kind: FieldType, text: str) -> bytes:
     values = [_value(kind.base, each, "") for each in text.partition("#")[0].split(",")]
     try:
         packed = struct.pack(f"<{len(values)}{_STRUCT_CODES[kind.base]}", *values)
-    except struct.error as error:
+    except (struct.error, OverflowError) as error:
         raise ValueError(f"default value '{text}' of a {kind.spelling}: {error}") from error
     return packed if any(packed) else b""
 
