@@ -21,6 +21,7 @@
 #include "load/urdf/link_element.hpp"
 #include "load/urdf/urdf_robot.hpp"
 #include "load/urdf/urdf_values.hpp"
+#include "scene/text_values.hpp"
 
 namespace bubblesim {
 namespace {
