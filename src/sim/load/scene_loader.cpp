@@ -11,6 +11,7 @@
 #include "load/load_context.hpp"
 #include "load/scene_text.hpp"
 #include "load/sdf/documents/documents.hpp"
+#include "load/sdf/models/sdf_grippers.hpp"
 #include "load/sdf/models/sdf_models.hpp"
 #include "load/sdf/models/sdf_visuals.hpp"
 #include "load/sdf/worlds/sdf_worlds.hpp"
@@ -68,6 +69,7 @@ class SceneLoader {
     } else {
       context_.report({context_.file(), 0}, "", "contains neither a <world> nor a <model>");
     }
+    for (ModelDescription& each : scene.models) leave_out_broken_grippers(each, context_);
     add_problems(check_scene(scene));
     if (context_.problems().empty()) divide_substep(scene, substeps, context_);
     fail_with_problems();
@@ -78,6 +80,7 @@ class SceneLoader {
     const XmlElement root = read_document();
     std::optional<ModelDescription> model = read_root_model(root);
     if (model) {
+      leave_out_broken_grippers(*model, context_);
       add_problems(check_model(*model));
     } else {
       const bool is_world = root.child("world") != nullptr;
