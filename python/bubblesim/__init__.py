@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from bubblesim._core import (
+        AirPressureReading,
         AltimeterReading,
         Batch,
         Buoyancy,
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
         ImuReading,
         LidarScan,
         LiftDrag,
+        LogicalCameraReading,
         MagnetometerReading,
         MotorMode,
         MulticopterVelocityControl,
@@ -58,6 +60,7 @@ if TYPE_CHECKING:
     from bubblesim.remote.connection import connect
 
 __all__ = [
+    "AirPressureReading",
     "AltimeterReading",
     "Batch",
     "Buoyancy",
@@ -75,6 +78,7 @@ __all__ = [
     "ImuReading",
     "LidarScan",
     "LiftDrag",
+    "LogicalCameraReading",
     "MagnetometerReading",
     "MotorMode",
     "MulticopterVelocityControl",

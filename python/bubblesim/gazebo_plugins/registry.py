@@ -146,6 +146,8 @@ NOT_NEEDED = frozenset(
         "gz-navsat-system",
         "gz-altimeter-system",
         "gz-magnetometer-system",
+        "gz-air-pressure-system",
+        "gz-logical-camera-system",
     }
 )
 

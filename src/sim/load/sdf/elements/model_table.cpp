@@ -95,10 +95,8 @@ const char* const kModelTable = R"TABLE(
   plugin any
     &plugin
   &sensor_kinds
-  air_pressure any ~ the sensor is not simulated
   air_speed any ~ the sensor is not simulated
   dvl any ~ the sensor is not simulated
-  logical_camera any ~ the sensor is not simulated
   rfid any ~ the sensor is not simulated
   rfidtag any ~ the sensor is not simulated
   transceiver any ~ the sensor is not simulated
