@@ -32,7 +32,7 @@ class SpeedLimiter:
     @classmethod
     def of(cls, parameters: Parameters) -> SpeedLimiter:
         """Read the limits: min_velocity, max_velocity, and those of acceleration and jerk."""
-        return cls(*(_read(parameters, what) for what in ("velocity", "acceleration", "jerk")))
+        return cls(_read(parameters, "velocity"), _read(parameters, "acceleration"), _read(parameters, "jerk"))
 
     def limited(self, wanted: float, duration: float) -> float:
         """Return the command after a time in s."""
