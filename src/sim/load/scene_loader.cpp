@@ -14,6 +14,7 @@
 #include "load/sdf/models/sdf_grippers.hpp"
 #include "load/sdf/models/sdf_models.hpp"
 #include "load/sdf/models/sdf_visuals.hpp"
+#include "load/sdf/worlds/sdf_actors.hpp"
 #include "load/sdf/worlds/sdf_worlds.hpp"
 #include "load/substeps.hpp"
 #include "load/urdf/urdf_model.hpp"
@@ -100,6 +101,9 @@ class SceneLoader {
   std::optional<ModelDescription> read_root_model(const XmlElement& root) {
     if (root.name == "robot") return read_urdf(root, context_);
     const XmlElement* found = root.child("model");
+    if (const XmlElement* actor = root.child("actor"); found == nullptr && actor != nullptr) {
+      return read_actor({actor, *sdf_kind().child("actor")}, context_);
+    }
     if (found == nullptr) return std::nullopt;
     for (const XmlElement& other : root.children) {
       if (other.name != "model" || &other == found) continue;

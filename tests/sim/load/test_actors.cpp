@@ -76,6 +76,15 @@ TEST(Actor, StandsStillWithoutAScriptThatStarts) {
   EXPECT_EQ(loaded(script).pose.position, Vector3(3, 0, 0));
 }
 
+TEST(Actor, MayBeAFileOfItsOwn) {
+  const std::string text = "<sdf version='1.9'>" + actor("<pose>1 2 0 0 0 0</pose>") + "</sdf>";
+  const TemporaryFile file("visitor.sdf", text);
+  const SceneDescription alone = read_scene(file.path());
+  EXPECT_TRUE(alone.is_model_file);
+  EXPECT_EQ(alone.models.back().name, "visitor");
+  EXPECT_EQ(load_model(text, ".").pose.position, Vector3(1, 2, 0)) << "as a service spawns it";
+}
+
 TEST(Actor, KeepsItsPluginsAndWarnsOfLinks) {
   std::vector<Problem> warnings;
   const ModelDescription read = loaded("<link name='l'/><plugin name='p' filename='libActorPlugin.so'/>", &warnings);
