@@ -27,6 +27,9 @@ struct WrongObject : InvalidInput {
 /// Returns the noun with its indefinite article, for messages: "a lidar", "an IMU".
 std::string with_article(std::string_view noun);
 
+/// The text of the exception that is being handled; of one that is not derived from std::exception, that it is not.
+std::string text_of_handled_exception();
+
 /// One error in a scene file, or one warning.
 struct Problem {
   std::string file;

@@ -259,6 +259,35 @@ enum class AxisConvention {
   kCoppeliaSim,  ///< joints move along or about z, sensors look along z with y up
 };
 
+/// A <gripper>: see Grasp, whose updates are the physics substeps.
+struct GripperDescription {
+  std::string name;
+  std::string palm;                  ///< link of the model
+  std::vector<std::string> fingers;  ///< likewise
+  int min_contacts = 2;
+  int attach_steps = 20;
+  int detach_steps = 40;
+  Source source;
+};
+
+struct Waypoint {
+  double time = 0;  ///< s, from the start of its trajectory
+  Pose pose;        ///< in the world
+};
+
+/// A part of a script: it begins where its first waypoint is, and ends at the time of its last one.
+struct Trajectory {
+  double tension = 0;               ///< of its spline: 0 is Catmull-Rom's, 1 comes to rest at each waypoint
+  std::vector<Waypoint> waypoints;  ///< at ascending times
+};
+
+/// The motion of a static model: see ScriptedMotion.
+struct MotionScript {
+  bool loop = true;
+  double delay = 0;  ///< s, before each cycle
+  std::vector<Trajectory> trajectories;
+};
+
 struct ModelDescription {
   std::string name;
   std::string alias;  ///< its name in paths; empty: the name
@@ -273,6 +302,8 @@ struct ModelDescription {
   std::filesystem::path child_script;  ///< empty: none
   std::vector<PluginDescription> plugins;
   std::vector<TransmissionDescription> transmissions;
+  std::vector<GripperDescription> grippers{};
+  std::optional<MotionScript> script{};
   Source source;
   std::vector<FrameDescription> frames;
   /// Whether scripts see the model itself. If not, it is only what moves together: in the tree are those of its parts

@@ -212,6 +212,48 @@ struct MagnetometerReading {
   static const MemberTable& members();
 };
 
+/// Measures the pressure of the air.
+struct AirPressureDescription {
+  double reference_altitude = 0;    ///< m above the sea, of the world's origin
+  NoiseDescription pressure_noise;  ///< Pa
+
+  static const MemberTable& members();
+};
+
+/// Measurement of a barometer.
+struct AirPressureReading {
+  double pressure = 0;  ///< Pa
+
+  static const MemberTable& members();
+};
+
+/// Finds the models in its field of view, without regard to what hides them.
+struct LogicalCameraDescription {
+  double near = 0;            ///< m ahead
+  double far = 1;             ///< m ahead
+  double aspect_ratio = 1;    ///< width by height
+  double horizontal_fov = 1;  ///< rad
+
+  static const MemberTable& members();
+};
+
+/// A model with its origin in the field of view of a logical camera; in the sensor's frame.
+struct SeenModel {
+  ObjectId model = kNoObject;
+  std::string name;
+  Vector3 position;  ///< m
+  Quaternion orientation = Quaternion::Identity();
+
+  static const MemberTable& members();
+};
+
+/// Measurement of a logical camera.
+struct LogicalCameraReading {
+  std::vector<SeenModel> models;  ///< without its own
+
+  static const MemberTable& members();
+};
+
 /// Measures the contacts of its link.
 struct ContactDescription {
   std::vector<std::string> collisions;  ///< names of collisions of the link; empty: all

@@ -50,6 +50,8 @@ struct Surface {
   Vector3 fdir1{};              ///< in the shape's frame; zero: any direction
   double slip1 = 0;             ///< m/s of sliding along fdir1 per N of friction
   double slip2 = 0;             ///< across fdir1
+  /// m/s, in the shape's frame: the surface runs about this axis at this speed, like a belt; no file sets it.
+  Vector3 belt{};
   double torsion = 0;           ///< m; torque against spinning = torsion * normal force
   double torsion_by_depth = 0;  ///< m^0.5; likewise, times the square root of the depth in m
   double rolling = 0;           ///< m; torque against rolling = rolling * normal force

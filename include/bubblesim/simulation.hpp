@@ -200,6 +200,7 @@ class Simulation {
   void remove_model_now(ObjectId model);
   void check_may_change_models() const;
   void make_sensors(ObjectId model);
+  void make_devices(ObjectId model);
   void reset_sensors();
   void restart_sensors();
   void index_sensors();

@@ -16,6 +16,7 @@
 #include "bubblesim/scene.hpp"
 #include "bubblesim/scene_tree.hpp"
 #include "bubblesim/state_archive.hpp"
+#include "bubblesim/world_attachments.hpp"
 #include "bubblesim/world_devices.hpp"
 #include "bubblesim/world_frames.hpp"
 #include "bubblesim/world_geometry.hpp"
@@ -62,6 +63,8 @@ class World {
   const WorldProperties& properties() const { return properties_; }
   WorldWrenches& wrenches() { return wrenches_; }
   const WorldWrenches& wrenches() const { return wrenches_; }
+  WorldAttachments& attachments() { return attachments_; }
+  const WorldAttachments& attachments() const { return attachments_; }
   WorldDevices& devices() { return devices_; }
   const WorldMeasurements& measurements() const { return measurements_; }
   const WorldGeometry& geometry() const { return geometry_; }
@@ -111,8 +114,9 @@ class World {
   void set_state(ObjectId object, const Pose& pose, const Twist& velocity);
 
   /// FNV-1a hash of the state: pose and velocity of each body and whether it sleeps, targets and modes of all motors,
-  /// applied wrenches, Device::state(), the seed and the state of the iterative solver. Equal histories give equal
-  /// hashes in every process. Not covered: how long a body has been at rest, which ODE does not report.
+  /// changed surfaces, attachments, applied wrenches, Device::state(), the seed and the state of the iterative
+  /// solver. Equal histories give equal hashes in every process. Not covered: how long a body has been at rest, which
+  /// ODE does not report.
   std::uint64_t state_hash() const;
 
   /// Saves what a world must have so that the next two can be restored: the descriptions of those of `models` that were
@@ -135,6 +139,7 @@ class World {
   WorldJoints joints_{state_};
   WorldProperties properties_{state_};
   WorldWrenches wrenches_{state_};
+  WorldAttachments attachments_{state_};
   WorldDevices devices_{state_};
   WorldMeasurements measurements_{state_};
   WorldGeometry geometry_{state_};

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from bubblesim._core import (
+        AirPressureReading,
         AltimeterReading,
         Batch,
         Buoyancy,
@@ -30,9 +31,11 @@ if TYPE_CHECKING:
         Drag,
         ForceTorqueReading,
         Frame,
+        Grasp,
         ImuReading,
         LidarScan,
         LiftDrag,
+        LogicalCameraReading,
         MagnetometerReading,
         MotorMode,
         MulticopterVelocityControl,
@@ -48,6 +51,7 @@ if TYPE_CHECKING:
         Scene,
         SceneError,
         Simulation,
+        WheelSlip,
         Wind,
         WrongObject,
         scene_folders,
@@ -56,6 +60,7 @@ if TYPE_CHECKING:
     from bubblesim.remote.connection import connect
 
 __all__ = [
+    "AirPressureReading",
     "AltimeterReading",
     "Batch",
     "Buoyancy",
@@ -69,9 +74,11 @@ __all__ = [
     "Drag",
     "ForceTorqueReading",
     "Frame",
+    "Grasp",
     "ImuReading",
     "LidarScan",
     "LiftDrag",
+    "LogicalCameraReading",
     "MagnetometerReading",
     "MotorMode",
     "MulticopterVelocityControl",
@@ -87,6 +94,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "Simulation",
+    "WheelSlip",
     "Wind",
     "WrongObject",
     "connect",

@@ -31,6 +31,12 @@ void magnetic_field(Fields& fields, const Header& header, const Vector3& field) 
   put(fields, "magnetic_field", field);
 }
 
+void fluid_pressure(Fields& fields, const Header& header, double pressure, double variance) {
+  put(fields, header);
+  fields.put("fluid_pressure", pressure);
+  fields.put("variance", variance);
+}
+
 void point(Fields& fields, const Header& header, const Vector3& point) {
   put(fields, header);
   put(fields, "point", point);

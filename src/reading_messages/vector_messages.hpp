@@ -34,6 +34,9 @@ void nav_sat_fix(Fields& fields, const Header& header, const NavSatReading& read
 /// sensor_msgs/MagneticField, in tesla.
 void magnetic_field(Fields& fields, const Header& header, const Vector3& field);
 
+/// sensor_msgs/FluidPressure: Pa, and the variance in Pa^2.
+void fluid_pressure(Fields& fields, const Header& header, double pressure, double variance);
+
 /// geometry_msgs/PointStamped.
 void point(Fields& fields, const Header& header, const Vector3& point);
 

@@ -232,6 +232,8 @@ def test_a_fix_states_whether_its_variances_are_known() -> None:
 
 def test_vectors_have_their_fields() -> None:
     assert xyz(read("sensor_msgs/MagneticField", make.magnetic_field(HEADER, LINEAR)).magnetic_field) == LINEAR
+    pressure = read("sensor_msgs/FluidPressure", make.fluid_pressure(HEADER, 101325.0, 9.0))
+    assert (pressure.fluid_pressure, pressure.variance) == (101325.0, 9.0)
     assert xyz(read("geometry_msgs/PointStamped", make.point(HEADER, LINEAR)).point) == LINEAR
     assert xyz(read("geometry_msgs/Vector3Stamped", make.vector(HEADER, LINEAR)).vector) == LINEAR
 

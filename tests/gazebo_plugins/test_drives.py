@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drives of other kinds than the rover's, in one world."""
+"""Drives with wheels of other kinds than the rover's, in one world."""
 
 import math
 import os
@@ -10,47 +10,9 @@ from typing import Any
 import pytest
 
 from node_support import write
-from ros_peer import Message, Messages, Peer
+from plugin_models import RADIUS, TRACK, WHEELBASE, link, moving, plugin, robot, steered, velocity, wheel, world
+from ros_peer import Message, Peer
 from ros_support import wait_until
-
-RADIUS, TRACK, WHEELBASE = 0.1, 0.4, 0.5  # m
-INERTIA = "<inertia><ixx>{0}</ixx><iyy>{0}</iyy><izz>{0}</izz></inertia>"
-
-
-def link(name: str, x: float, y: float, z: float, mass: float, inertia: float, shape: str = "") -> str:
-    collision = f'<collision name="shape"><geometry>{shape}</geometry></collision>' if shape else ""
-    inertial = f"<inertial><mass>{mass}</mass>{INERTIA.format(inertia)}</inertial>"
-    return f'<link name="{name}"><pose>{x} {y} {z} 0 0 0</pose>{inertial}{collision}</link>'
-
-
-def joint(name: str, parent: str, child: str, axis: str, limit: float = 1e16) -> str:
-    limits = f"<limit><lower>{-limit}</lower><upper>{limit}</upper></limit>"
-    ends = f"<parent>{parent}</parent><child>{child}</child>"
-    return f'<joint name="{name}" type="revolute">{ends}<axis><xyz>{axis}</xyz>{limits}</axis></joint>'
-
-
-def wheel(name: str, x: float, y: float, parent: str = "body", radius: float = RADIUS) -> str:
-    sphere = f"<sphere><radius>{radius}</radius></sphere>"
-    return link(name, x, y, radius, 1, 0.004, sphere) + joint(f"{name}_joint", parent, name, "0 1 0")
-
-
-def steered(name: str, x: float, y: float) -> str:
-    """Return a wheel below a part that turns about the vertical."""
-    knuckle = link(f"{name}_knuckle", x, y, RADIUS, 0.5, 0.002) + joint(
-        f"{name}_steering", "body", f"{name}_knuckle", "0 0 1", 0.7
-    )
-    return knuckle + wheel(name, x, y, f"{name}_knuckle")
-
-
-def robot(name: str, y: float, parts: str, plugin: str) -> str:
-    body = link("body", WHEELBASE / 2, 0, 0.2, 5, 0.2, "<box><size>0.6 0.3 0.1</size></box>")
-    return f'<model name="{name}"><pose>0 {y} 0 0 0 0</pose>{body}{parts}{plugin}</model>'
-
-
-def plugin(filename: str, **parameters: str) -> str:
-    elements = "".join(f"<{name}>{value}</{name}>" for name, value in parameters.items())
-    return f'<plugin name="drive" filename="{filename}">{elements}</plugin>'
-
 
 REAR = wheel("left", 0, TRACK / 2) + wheel("right", 0, -TRACK / 2)
 FOUR = REAR + wheel("front_left", WHEELBASE, TRACK / 2) + wheel("front_right", WHEELBASE, -TRACK / 2)
@@ -117,30 +79,6 @@ CASTER = (
     + '<joint name="ball_joint" type="fixed"><parent>body</parent><child>ball</child></joint>'
 )
 
-ARM = (
-    link("base", 0, 0, 0.5, 50, 1)
-    + link("arm", 0, 0, 1, 1, 0.1)
-    + '<joint name="foot" type="fixed"><parent>world</parent><child>base</child></joint>'
-    + joint("arm_joint", "base", "arm", "0 0 1")
-    + plugin("libgazebo_ros_joint_pose_trajectory.so", robotNamespace="/")
-    + plugin("libgazebo_ros_joint_state_publisher.so", robotNamespace="/", jointName="arm_joint")
-)
-GZ_ARM = (
-    link("base", 0, 0, 0.5, 50, 1)
-    + link("arm", 0, 0, 1, 1, 0.1)
-    + link("disc", 0, 0, 1.5, 1, 0.1)
-    + '<joint name="foot" type="fixed"><parent>world</parent><child>base</child></joint>'
-    + joint("gz_arm_joint", "base", "arm", "0 0 1")
-    + joint("gz_disc_joint", "arm", "disc", "0 0 1")
-    + link("flywheel", 0, 0, 2, 1, 0.1)
-    + joint("gz_flywheel_joint", "disc", "flywheel", "0 0 1").replace(
-        "</axis>", "<dynamics><damping>0.2</damping></dynamics></axis>"
-    )
-    + plugin("gz-sim-apply-joint-force-system", joint_name="gz_flywheel_joint")
-    + plugin("gz-sim-joint-position-controller-system", joint_name="gz_arm_joint", initial_position="0.2")
-    + plugin("gz-sim-joint-controller-system", joint_name="gz_disc_joint", topic="gz_disc")
-    + plugin("gz-sim-joint-state-publisher-system", topic="gz_arm/joints")
-)
 ROS2 = plugin(
     "libgazebo_ros_diff_drive.so",
     left_joint="left_joint",
@@ -162,48 +100,33 @@ PAIRS = (
     "<max_wheel_torque>20</max_wheel_torque><publish_odom>true</publish_odom></plugin>"
 ) + plugin("libgazebo_ros_joint_state_publisher.so")
 MISCOUNTED = PAIRS.replace(">2</num", ">3</num").replace('"drive"', '"miscounted"')
-PLANAR = plugin("libgazebo_ros_planar_move.so", robotNamespace="sledge", odometryFrame="odom", robotBaseFrame="body")
-PUSHED = plugin(
-    "libgazebo_ros_force_based_move.so", robotNamespace="pushed", robotBaseFrame="body", yaw_velocity_p_gain="10000"
-)
-BOX = link("body", 0, 0, 0, 5, 0.1, "<box><size>0.5 0.5 0.1</size></box>")
-
-WORLD = "".join(
-    [
-        '<sdf version="1.9"><world name="drives"><model name="floor"><static>true</static><link name="link">',
-        '<collision name="c"><geometry><plane><normal>0 0 1</normal></plane></geometry></collision></link></model>',
-        robot("skid", 0, FOUR, SKID),
-        robot("tricycle", 10, REAR + steered("front", WHEELBASE, 0), TRICYCLE),
-        robot(
-            "car",
-            20,
-            REAR + steered("car_left", WHEELBASE, TRACK / 2) + steered("car_right", WHEELBASE, -TRACK / 2),
-            ACKERMANN,
-        ),
-        robot("gz", 30, REAR + CASTER, GZ),
-        robot(
-            "gz_car",
-            70,
-            REAR + steered("gz_left", WHEELBASE, TRACK / 2) + steered("gz_right", WHEELBASE, -TRACK / 2),
-            GZ_CAR,
-        ),
-        robot("plain", 40, REAR + CASTER, GAZEBO),
-        robot("ros2", 80, REAR + CASTER, ROS2),
-        robot("pairs", 100, REAR + SMALL, PAIRS),
-        robot("miscounted", 110, REAR + SMALL, MISCOUNTED),
-        f'<model name="gz_arm"><pose>0 90 0 0 0 0</pose>{GZ_ARM}</model>',
-        f'<model name="robot_arm"><pose>0 60 0 0 0 0</pose>{ARM}</model>',
-        f'<model name="sledge"><pose>0 50 0.05 0 0 0</pose>{BOX}{PLANAR}</model>',
-        f'<model name="pushed"><pose>0 120 0.05 0 0 0</pose>{BOX}{PUSHED}</model>',
-        "</world></sdf>",
-    ]
+WORLD = world(
+    robot("skid", 0, FOUR, SKID),
+    robot("tricycle", 10, REAR + steered("front", WHEELBASE, 0), TRICYCLE),
+    robot(
+        "car",
+        20,
+        REAR + steered("car_left", WHEELBASE, TRACK / 2) + steered("car_right", WHEELBASE, -TRACK / 2),
+        ACKERMANN,
+    ),
+    robot("gz", 30, REAR + CASTER, GZ),
+    robot(
+        "gz_car",
+        70,
+        REAR + steered("gz_left", WHEELBASE, TRACK / 2) + steered("gz_right", WHEELBASE, -TRACK / 2),
+        GZ_CAR,
+    ),
+    robot("plain", 40, REAR + CASTER, GAZEBO),
+    robot("ros2", 80, REAR + CASTER, ROS2),
+    robot("pairs", 100, REAR + SMALL, PAIRS),
+    robot("miscounted", 110, REAR + SMALL, MISCOUNTED),
 )
 
 
 @pytest.fixture(scope="module")
 def running(run: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory) -> Any:
-    world = write(tmp_path_factory.mktemp("drives") / "drives.sdf", WORLD)
-    return run(world, "--speed", "4", "--gazebo-compat")
+    file = write(tmp_path_factory.mktemp("drives") / "drives.sdf", WORLD)
+    return run(file, "--speed", "4", "--gazebo-compat")
 
 
 @pytest.fixture
@@ -211,22 +134,6 @@ def peer(running: Any) -> Peer:
     peer: Peer = running.peer
     peer.call("/gazebo/reset_world")
     return peer
-
-
-def moving(peer: Peer, topic: str, name: str, least: float) -> Message:
-    """Return the odometry after a velocity has reached its value."""
-
-    def fast(message: Message) -> bool:
-        twist = message["twist"]["twist"]
-        return abs(twist["linear"]["x"] if name == "x" else twist["angular"]["z"]) > least
-
-    peer.wait_for(topic, "nav_msgs/Odometry", fast, f"{topic} to report motion")
-    return peer.next(topic, count=5)
-
-
-def velocity(message: Message) -> tuple[float, float]:
-    twist = message["twist"]["twist"]
-    return twist["linear"]["x"], twist["angular"]["z"]
 
 
 def test_a_skid_steer_drive_drives_and_turns(peer: Peer) -> None:
@@ -276,33 +183,6 @@ def test_gz_sims_car_turns_at_the_commanded_rate(peer: Peer) -> None:
     assert (odom["header"]["frame_id"], odom["child_frame_id"]) == ("gz_car/odom", "gz_car/base_link")
 
 
-def test_gz_sims_joints_follow_their_commands(peer: Peer) -> None:
-    def arm(position: float, speed: float) -> None:
-        def there(state: Message) -> bool:
-            axes = {name: i for i, name in enumerate(state["name"])}
-            return state["position"][axes["gz_arm_joint"]] == pytest.approx(position, abs=0.01) and state["velocity"][
-                axes["gz_disc_joint"]
-            ] == pytest.approx(speed, abs=0.01)
-
-        peer.wait_for("/gz_arm/joints", "sensor_msgs/JointState", there, f"the joints to follow {position}, {speed}")
-
-    arm(0.2, 0.0)
-    peer.publish("/model/gz_arm/joint/gz_arm_joint/0/cmd_pos", "std_msgs/Float64", {"data": -0.5})
-    peer.publish("/gz_disc", "std_msgs/Float64", {"data": 1.5})
-    arm(-0.5, 1.5)
-
-
-def test_gz_sims_force_accelerates_a_joint_to_where_its_damping_holds(peer: Peer) -> None:
-    peer.publish("/model/gz_arm/joint/gz_flywheel_joint/cmd_force", "std_msgs/Float64", {"data": 0.3})
-
-    def holds(state: Message) -> bool:
-        index = state["name"].index("gz_flywheel_joint")
-        found = state["velocity"][index], state["effort"][index]
-        return bool(found == pytest.approx((0.3 / 0.2, 0.3), abs=0.01))
-
-    peer.wait_for("/gz_arm/joints", "sensor_msgs/JointState", holds, "the flywheel to turn at 1.5 rad/s by 0.3 N m")
-
-
 def test_ros_2s_drive_turns_to_the_left_for_a_positive_rate(peer: Peer) -> None:
     peer.drive("/ros2/cmd_vel", 0.3, 0.5)
     assert velocity(moving(peer, "/ros2/odom", "yaw", 0.4)) == pytest.approx((0.3, 0.5), abs=0.05)
@@ -342,48 +222,6 @@ def test_gazebos_own_drive_takes_its_measures_from_the_model(peer: Peer) -> None
         return math.hypot(found["linear"]["x"], found["linear"]["y"]), found["angular"]["z"]
 
     wait_until(lambda: twist() == pytest.approx((0.5, 0.5), rel=0.05), "the speeds of the Twist")
-
-
-def test_joints_go_through_a_trajectory(running: Any, peer: Peer) -> None:
-    points = [
-        {"positions": [0.5], "time_from_start": {"secs": 0}},
-        {"positions": [-0.3], "time_from_start": {"secs": 2}},
-    ]
-    command = {"joint_names": ["arm_joint"], "points": points}
-    peer.next("/joint_states", "sensor_msgs/JointState")  # it stands at the first angle for half a second only
-    states = Messages(peer, "/joint_states", "sensor_msgs/JointState")
-    peer.publish("/set_joint_trajectory", "trajectory_msgs/JointTrajectory", command)
-
-    def at(angle: float) -> Message:
-        return states.next(
-            lambda state: bool(state["position"] == pytest.approx([angle], abs=0.01)),
-            f"the joint to stand at {angle} rad",
-        )
-
-    first = at(0.5)
-    assert at(-0.3)["header"]["stamp"] > first["header"]["stamp"]
-    peer.publish("/set_joint_trajectory", "trajectory_msgs/JointTrajectory", {"joint_names": ["leg"], "points": points})
-    running.node.wait_for_output("cannot process a message on /set_joint_trajectory")
-    assert peer.next("/joint_states")["position"] == pytest.approx([-0.3], abs=0.01), "the rest goes on"
-
-
-def test_a_planar_move_goes_in_all_directions_against_friction(peer: Peer) -> None:
-    peer.publish("/sledge/cmd_vel", "geometry_msgs/Twist", {"linear": {"x": 0.3, "y": 0.2}, "angular": {"z": 0.5}})
-    twist = moving(peer, "/sledge/odom", "yaw", 0.45)["twist"]["twist"]
-    # At the end of a step it has turned by half a step's angle more than the velocity command assumed.
-    assert (twist["linear"]["x"], twist["linear"]["y"]) == pytest.approx((0.3, 0.2), abs=0.01)
-    assert twist["angular"]["z"] == pytest.approx(0.5, abs=0.01)
-
-
-def test_a_force_based_move_lags_behind_by_its_friction(peer: Peer) -> None:
-    """A force of gain * error balances the friction of 5 kg: 49 N by 10,000 N s/m."""
-    peer.publish("/pushed/cmd_vel", "geometry_msgs/Twist", {"linear": {"x": 0.3}})
-    linear = moving(peer, "/pushed/odom", "x", 0.29)["twist"]["twist"]["linear"]
-    assert linear["x"] == pytest.approx(0.3 - 5 * 9.81 / 10000, abs=2e-4)
-    peer.publish("/pushed/cmd_vel", "geometry_msgs/Twist", {"linear": {"y": -0.2}, "angular": {"z": 0.5}})
-    twist = moving(peer, "/pushed/odom", "yaw", 0.45)["twist"]["twist"]
-    assert (twist["linear"]["x"], twist["linear"]["y"]) == pytest.approx((0.0, -0.2), abs=0.01)
-    assert twist["angular"]["z"] == pytest.approx(0.5, abs=0.01)
 
 
 @pytest.mark.skipif(not os.environ.get("BUBBLESIM_ZOO"), reason="BUBBLESIM_ZOO names no folder of Gazebo's models")

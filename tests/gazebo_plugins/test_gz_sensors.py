@@ -72,6 +72,21 @@ def test_a_sensor_without_a_topic_is_named_after_its_place_when_its_system_is_th
     assert not [topic for topic in topics if "old" in topic], "~ is a name of Gazebo's own transport"
 
 
+def test_a_barometer_gives_the_pressure_of_its_height_above_the_sea(peer: Peer) -> None:
+    pressure = peer.next("/pressure", "sensor_msgs/FluidPressure")
+    assert pressure["fluid_pressure"] == pytest.approx(89876 - 11, abs=3), "1 m above the altitude of the reference"
+    assert pressure["header"]["frame_id"] == "head/eyes/barometer"
+
+
+def test_a_logical_camera_gives_models_and_their_poses_in_its_frame(peer: Peer) -> None:
+    models = peer.next("/models", "gazebo_msgs/ModelStates")
+    assert models["name"] == ["scale"]
+    (pose,) = models["pose"]
+    place = [pose["position"][axis] for axis in "xyz"]
+    assert place == pytest.approx([5.0, 0.0, -1.0], abs=0.01), "it looks to the left"
+    assert 2 * math.atan2(pose["orientation"]["z"], pose["orientation"]["w"]) == pytest.approx(-math.pi / 2, abs=0.01)
+
+
 def test_a_camera_gives_pictures_and_its_optics_beside_them(peer: Peer) -> None:
     picture = peer.next("/front/image", "sensor_msgs/Image")
     assert (picture["encoding"], picture["width"], picture["height"]) == ("rgb8", 16, 8)

@@ -49,7 +49,7 @@ class PluginContext:
     model: int  # handle; -1: the world
     parameters: Parameters
     namespace: str | None  # of the spawn request; the plugin's namespace replaces it
-    rotors: dict[int, Any]  # those of all plugins, by the handles of their joints
+    actuators: dict[int, Any]  # rotors and tracks of all plugins, by the handles of their joints and links
     need_rate: Callable[[float], None]  # makes the time step short enough to publish at a rate, Hz
     endpoints: list[Callable[[], None]] = field(default_factory=list)  # functions that shut them down
 

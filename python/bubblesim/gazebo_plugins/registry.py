@@ -13,17 +13,21 @@ from bubblesim.gazebo_plugins.drives.gazebo_drives import GazeboDiffDrive, Gazeb
 from bubblesim.gazebo_plugins.drives.gz_ackermann_steering import GzAckermannSteering
 from bubblesim.gazebo_plugins.drives.gz_diff_drive import GzDiffDrive
 from bubblesim.gazebo_plugins.drives.gz_odometry_publisher import GzOdometryPublisher
+from bubblesim.gazebo_plugins.drives.gz_tracks import GzTrackController, GzTrackedVehicle
 from bubblesim.gazebo_plugins.drives.gz_velocity_control import GzVelocityControl
 from bubblesim.gazebo_plugins.drives.kobuki import Kobuki
 from bubblesim.gazebo_plugins.drives.planar_move import ForceBasedMove, PlanarMove
 from bubblesim.gazebo_plugins.drives.skid_steer_drive import SkidSteerDrive
 from bubblesim.gazebo_plugins.drives.tricycle_drive import TricycleDrive
+from bubblesim.gazebo_plugins.drives.wheel_slip import WheelSlip
 from bubblesim.gazebo_plugins.forces.buoyancy import GzBuoyancy, ModelBuoyancy
 from bubblesim.gazebo_plugins.forces.hydrodynamics import Hydrodynamics
 from bubblesim.gazebo_plugins.forces.lift_drag import LiftDrag
 from bubblesim.gazebo_plugins.forces.multicopter_motor import MulticopterMotor
 from bubblesim.gazebo_plugins.forces.multicopter_velocity import MulticopterVelocity
 from bubblesim.gazebo_plugins.forces.wind_effects import WindEffects
+from bubblesim.gazebo_plugins.joints.detachable_joint import DetachableJoint
+from bubblesim.gazebo_plugins.joints.grasp_fix import GraspFix
 from bubblesim.gazebo_plugins.joints.gz_joint_controllers import (
     GzApplyJointForce,
     GzJointController,
@@ -57,6 +61,7 @@ PLUGINS: dict[str, type[Plugin]] = {
     "DiffDrivePlugin": GazeboDiffDrive,
     "LiftDragPlugin": LiftDrag,
     "SkidSteerDrivePlugin": GazeboSkidSteerDrive,
+    "WheelSlipPlugin": WheelSlip,
     "WindPlugin": WindEffects,
     "gazebo_ros_ackermann_drive": AckermannDrive,
     "gazebo_ros_block_laser": BlockLaser,
@@ -68,6 +73,7 @@ PLUGINS: dict[str, type[Plugin]] = {
     "gazebo_ros_control": RosControl,
     "gazebo_ros_force_based_move": ForceBasedMove,
     "gazebo_ros_ft_sensor": FtSensor,
+    "gazebo_grasp_fix": GraspFix,
     "gazebo_ros_gpu_laser": Laser,
     "gazebo_ros_imu": LinkImu,
     "gazebo_ros_imu_sensor": ImuSensor,
@@ -89,12 +95,14 @@ PLUGINS: dict[str, type[Plugin]] = {
     "hector_gazebo_ros_imu": HectorImu,
     "hector_gazebo_ros_magnetic": Magnetic,
     "hector_gazebo_ros_sonar": HectorSonar,
+    "gazebo_ros_wheel_slip": WheelSlip,
     "gazebo_ros_velodyne_gpu_laser": VelodyneLaser,
     "gazebo_ros_velodyne_laser": VelodyneLaser,
     "gz_ros2_control-system": Ros2Control,
     "ign_ros2_control-system": Ros2Control,
     "gz-ackermann-steering-system": GzAckermannSteering,
     "gz-buoyancy-system": GzBuoyancy,
+    "gz-detachable-joint-system": DetachableJoint,
     "gz-diff-drive-system": GzDiffDrive,
     "gz-hydrodynamics-system": Hydrodynamics,
     "gz-lift-drag-system": LiftDrag,
@@ -102,6 +110,9 @@ PLUGINS: dict[str, type[Plugin]] = {
     "gz-multicopter-control-system": MulticopterVelocity,
     "gz-multicopter-motor-model-system": MulticopterMotor,
     "gz-odometry-publisher-system": GzOdometryPublisher,
+    "gz-track-controller-system": GzTrackController,
+    "gz-tracked-vehicle-system": GzTrackedVehicle,
+    "gz-wheel-slip-system": WheelSlip,
     "gz-wind-effects-system": WindEffects,
     "gz-velocity-control-system": GzVelocityControl,
     "roboticsgroup_gazebo_mimic_joint_plugin": MimicJoint,
@@ -135,6 +146,8 @@ NOT_NEEDED = frozenset(
         "gz-navsat-system",
         "gz-altimeter-system",
         "gz-magnetometer-system",
+        "gz-air-pressure-system",
+        "gz-logical-camera-system",
     }
 )
 

@@ -37,7 +37,7 @@ class GazeboPlugins:
         self._step_time = StepTime(bridge)
         self._transforms = Transforms(bridge)
         self._plugins: list[Plugin] = []
-        self._rotors: dict[int, Any] = {}
+        self._actuators: dict[int, Any] = {}
         self._unknown = UnknownPlugins()
         self._step = StepLength(simulation, enabled=follows_rates)
         for description in simulation.plugins:
@@ -132,7 +132,7 @@ class GazeboPlugins:
         parameters = Parameters(description)
         outside = self._bridge, self._step_time, self._transforms
         context = PluginContext(
-            self._simulation, *outside, owner, model, parameters, namespace, self._rotors, self._step.need
+            self._simulation, *outside, owner, model, parameters, namespace, self._actuators, self._step.need
         )
         try:
             plugin = kind(context)

@@ -11,13 +11,16 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "bubblesim/grasp.hpp"
 #include "bubblesim/joint_ramps.hpp"
 #include "bubblesim/planar_drive.hpp"
 #include "bubblesim/planar_force_drive.hpp"
 #include "bubblesim/spatial_drive.hpp"
 #include "bubblesim/timed_efforts.hpp"
+#include "bubblesim/wheel_slip.hpp"
 #include "devices/attached.hpp"
 #include "devices/number_target.hpp"
+#include "numpy_values.hpp"
 
 namespace bubblesim::bindings {
 namespace {
@@ -155,6 +158,70 @@ void bind_spatial_drive(py::module_& module) {
       .def("remove", &Drive::remove, "Remove it from the world.");
 }
 
+void bind_wheel_slip(py::module_& module) {
+  using Slip = Attached<WheelSlip>;
+  using Wheel = std::tuple<ObjectId, double, double, double, double>;
+  py::class_<Slip> slip(module, "WheelSlip", "Wheels whose tyres slip in proportion to the friction.");
+  slip.def(py::init([](Simulation& simulation, const std::vector<Wheel>& wheels) {
+             std::vector<SlippingWheel> described;
+             for (const auto& [joint, radius, force, lateral, longitudinal] : wheels) {
+               described.push_back({joint, radius, force, {lateral, longitudinal}});
+             }
+             const ObjectId first = described.empty() ? kNoObject : described.front().joint;
+             return attach_to_model_of<WheelSlip>(first, simulation, [&](const World& world) {
+               return std::make_shared<WheelSlip>(world, std::move(described));
+             });
+           }),
+           py::arg("simulation"), py::arg("wheels"), py::keep_alive<1, 2>(),
+           R"(Add it to a simulation.
+
+:param wheels: of a model; the joint of each, its radius in m, normal force in N, lateral and longitudinal compliance:
+    slip ratio divided by the ratio of friction and normal force.)");
+  Guarded(slip)
+      .def(
+          "set_compliance",
+          [](Slip& s, std::optional<double> lateral, std::optional<double> longitudinal) {
+            s.device->set_compliance(lateral, longitudinal);
+          },
+          py::arg("lateral") = py::none(), py::arg("longitudinal") = py::none(),
+          "Of all wheels, until the next reset; None stays as it is.")
+      .def(
+          "slip", [](const Slip& s, std::size_t wheel) { return to_numpy(s.device->slip(s.world, wheel)); },
+          py::arg("wheel"),
+          "Return for a wheel, by its number, m/s: its velocity ahead less that of its circumference, its velocity\n"
+          "along its axis, and that of its circumference.")
+      .def("remove", &Slip::remove, "Remove it from the simulation.");
+}
+
+void bind_grasp(py::module_& module) {
+  using Gripper = Attached<Grasp>;
+  py::class_<Gripper> grasp(module, "Grasp", "Attaches objects to a palm while fingers press them.");
+  grasp.def(py::init([](Simulation& simulation, ObjectId palm, std::vector<ObjectId> fingers, double rate,
+                        int min_contacts, std::optional<double> min_angle, int attach_updates, int detach_updates,
+                        std::optional<double> slack) {
+              World& world = simulation.world();
+              const HoldWithGil hold(world.access());
+              GraspDescription described{palm,           std::move(fingers), min_contacts, min_angle,
+                                         attach_updates, detach_updates,     slack};
+              return attach(world, std::make_shared<Grasp>(world, std::move(described)),
+                            world.tree().outermost_model_of(palm), rate);
+            }),
+            py::arg("simulation"), py::arg("palm"), py::arg("fingers"), py::arg("rate") = 0.0, py::kw_only(),
+            py::arg("min_contacts") = 2, py::arg("min_angle") = py::none(), py::arg("attach_updates") = 20,
+            py::arg("detach_updates") = 40, py::arg("slack") = py::none(), py::keep_alive<1, 2>(),
+            R"(Add it to a simulation.
+
+:param palm: link to which an object is attached; fingers: links that press it.
+:param rate: Hz of its updates, 0 for each physics substep.
+:param min_contacts: contact points of the fingers with the object; min_angle: rad, between the forces of two fingers.
+:param attach_updates: it is attached after more updates in which it is pressed; detach_updates: and detached after more
+    in which it is not, with slack, m, only if a finger has moved away by more than that.)");
+  Guarded(grasp)
+      .def_property_readonly(
+          "attached", [](const Gripper& g) { return g.device->attached(); }, "The link that is attached, or -1.")
+      .def("remove", &Gripper::remove, "Remove it from the simulation.");
+}
+
 /// Calls a Python function before each substep. Made, called and destroyed in threads that may not hold the GIL.
 class SubstepCall : public Device {
  public:
@@ -225,6 +292,8 @@ void bind_devices(py::module_& module) {
   bind_joint_ramps(module);
   bind_planar_drives(module);
   bind_spatial_drive(module);
+  bind_wheel_slip(module);
+  bind_grasp(module);
   bind_substep_calls(module);
 }
 

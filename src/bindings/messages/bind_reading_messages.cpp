@@ -237,6 +237,15 @@ void bind_vectors(py::module_& m) {
       },
       py::arg("header"), py::arg("field"), "Return a sensor_msgs/MagneticField, T.");
   m.def(
+      "fluid_pressure",
+      [](const StampedFrame& frame, double pressure, double variance) {
+        return message(frame.header(), [=](Fields& fields, const Header& header) {
+          make::fluid_pressure(fields, header, pressure, variance);
+        });
+      },
+      py::arg("header"), py::arg("pressure"), py::arg("variance") = 0.0,
+      "Return a sensor_msgs/FluidPressure, Pa and Pa^2.");
+  m.def(
       "point",
       [](const StampedFrame& frame, const NumberList<3>& point) {
         return message(frame.header(),

@@ -59,10 +59,8 @@ class LoadedDevice {
       device.load(place);
     } catch (const PluginParameterError&) {  // its text has the place
       throw;
-    } catch (const std::exception& error) {
-      throw std::runtime_error(std::string("load(): ") + error.what());
-    } catch (...) {
-      throw std::runtime_error("load(): an exception that is not derived from std::exception");
+    } catch (...) {  // the user may throw anything
+      throw std::runtime_error("load(): " + text_of_handled_exception());
     }
   }
 

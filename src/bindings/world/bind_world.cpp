@@ -293,6 +293,28 @@ void bind_world(py::module_& module) {
            "Return the friction coefficient of its first collision.")
       .def("set_friction", of_properties(&WorldProperties::set_friction), py::arg("object"), py::arg("mu"),
            "Set the friction coefficient of all collisions of a link or model, until the world is reset.")
+      .def(
+          "set_belt",
+          [](World& w, ObjectId link, const std::array<double, 3>& axis, double speed) {
+            w.properties().set_belt(link, to_vector(axis), speed);
+          },
+          py::arg("link"), py::arg("axis"), py::arg("speed"),
+          "Let the surfaces of a link run about an axis in its frame like a belt, m/s, until the world is reset.")
+      .def(
+          "attach", [](World& w, ObjectId parent, ObjectId child) { return w.attachments().attach(parent, child); },
+          py::arg("parent"), py::arg("child"),
+          "Hold two links to each other where they are, as by a fixed joint; return the number of the attachment.")
+      .def(
+          "detach", [](World& w, AttachmentId attachment) { w.attachments().detach(attachment); },
+          py::arg("attachment"), "End an attachment; does nothing if it has ended.")
+      .def_property_readonly(
+          "attachments",
+          [](const World& w) {
+            std::map<AttachmentId, std::pair<ObjectId, ObjectId>> found;
+            for (const Attachment& each : w.attachments().all()) found[each.id] = {each.parent, each.child};
+            return found;
+          },
+          "The parent and child links of the attachments, by their numbers.")
       .def("joint_position", of_joints(&WorldJoints::position), py::arg("joint"), py::arg("axis") = 0)
       .def("joint_velocity", of_joints(&WorldJoints::velocity), py::arg("joint"), py::arg("axis") = 0)
       .def("motor_effort", of_joints(&WorldJoints::motor_effort), py::arg("joint"), py::arg("axis") = 0,

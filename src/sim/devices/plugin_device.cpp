@@ -2,41 +2,23 @@
 #include "bubblesim/plugin_device.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <exception>
 #include <optional>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bubblesim/nearest_names.hpp"
+#include "scene/text_values.hpp"
 
 namespace bubblesim {
 namespace {
 
-constexpr const char* kSpaces = " \t\r\n";
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(kSpaces);
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
-}
-
 /// Returns the finite numbers of a string; nothing if it has anything else.
 std::optional<std::vector<double>> numbers_in(const std::string& text) {
   std::vector<double> numbers;
-  const std::string_view all = text;
-  for (std::size_t at = all.find_first_not_of(kSpaces); at != std::string_view::npos;
-       at = all.find_first_not_of(kSpaces, at)) {
-    const std::size_t end = std::min(all.find_first_of(kSpaces, at), all.size());
-    const char* first = all.data() + at + (all[at] == '+' ? 1 : 0);
-    const char* last = all.data() + end;
-    double number = 0;
-    const auto [stop, problem] = std::from_chars(first, last, number);
-    if (problem != std::errc() || stop != last || !std::isfinite(number)) return std::nullopt;
-    numbers.push_back(number);
-    at = end;
-  }
-  return numbers;
+  const bool is_read = read_numbers(text, numbers);
+  const bool is_finite = std::all_of(numbers.begin(), numbers.end(), [](double each) { return std::isfinite(each); });
+  return is_read && is_finite ? std::make_optional(std::move(numbers)) : std::nullopt;
 }
 
 ObjectId part_named(const PluginPlace& place, const std::string& parameter, ObjectKind kind) {
@@ -122,10 +104,8 @@ void SwitchedDevice::guarded(const char* function, const Call& call) {
   if (!failure_.empty()) return;
   try {
     call();
-  } catch (const std::exception& error) {
-    failure_ = std::string(function) + ": " + error.what();
   } catch (...) {  // the user may throw anything
-    failure_ = std::string(function) + ": an exception that is not derived from std::exception";
+    failure_ = std::string(function) + ": " + text_of_handled_exception();
   }
 }
 

@@ -11,8 +11,10 @@
 #include "load/load_context.hpp"
 #include "load/scene_text.hpp"
 #include "load/sdf/documents/documents.hpp"
+#include "load/sdf/models/sdf_grippers.hpp"
 #include "load/sdf/models/sdf_models.hpp"
 #include "load/sdf/models/sdf_visuals.hpp"
+#include "load/sdf/worlds/sdf_actors.hpp"
 #include "load/sdf/worlds/sdf_worlds.hpp"
 #include "load/substeps.hpp"
 #include "load/urdf/urdf_model.hpp"
@@ -68,6 +70,7 @@ class SceneLoader {
     } else {
       context_.report({context_.file(), 0}, "", "contains neither a <world> nor a <model>");
     }
+    for (ModelDescription& each : scene.models) leave_out_broken_grippers(each, context_);
     add_problems(check_scene(scene));
     if (context_.problems().empty()) divide_substep(scene, substeps, context_);
     fail_with_problems();
@@ -78,6 +81,7 @@ class SceneLoader {
     const XmlElement root = read_document();
     std::optional<ModelDescription> model = read_root_model(root);
     if (model) {
+      leave_out_broken_grippers(*model, context_);
       add_problems(check_model(*model));
     } else {
       const bool is_world = root.child("world") != nullptr;
@@ -97,6 +101,9 @@ class SceneLoader {
   std::optional<ModelDescription> read_root_model(const XmlElement& root) {
     if (root.name == "robot") return read_urdf(root, context_);
     const XmlElement* found = root.child("model");
+    if (const XmlElement* actor = root.child("actor"); found == nullptr && actor != nullptr) {
+      return read_actor({actor, *sdf_kind().child("actor")}, context_);
+    }
     if (found == nullptr) return std::nullopt;
     for (const XmlElement& other : root.children) {
       if (other.name != "model" || &other == found) continue;

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "bubblesim/error.hpp"
+#include "bubblesim/grasp.hpp"
 #include "bubblesim/randomization.hpp"
+#include "bubblesim/scripted_motion.hpp"
 #include "bubblesim/velocity_decay.hpp"
 #include "rays/ray_scene.hpp"
 #include "run/sensor_slot.hpp"
@@ -33,7 +35,10 @@ Simulation::Simulation(std::shared_ptr<const Scene> scene, std::uint64_t seed)
       time_step_(scene_->description().time_step) {
   world_.devices().add(wind_);
   world_.devices().add(std::make_shared<VelocityDecay>());
-  for (const ObjectId model : world_.tree().models()) make_sensors(model);
+  for (const ObjectId model : world_.tree().models()) {
+    make_sensors(model);
+    make_devices(model);
+  }
   index_sensors();
   const std::vector<RandomQuantity>& randomized = this->scene().randomized;
   if (!randomized.empty()) randomization_ = std::make_unique<const Randomization>(*this, randomized);
@@ -152,14 +157,40 @@ void Simulation::reset_to_scene(std::uint64_t seed) {
   const AccessLock::Hold hold(world_.access());
   check_may_change();
   if (!world_.has_scene_models()) {
+    const std::vector<ObjectId> before = world_.tree().models();
     world_.rebuild(*scene_);
     rays_ = std::make_unique<RayScene>(scene_);
     sensors_.clear();
-    for (const ObjectId model : world_.tree().models()) make_sensors(model);
+    for (const ObjectId model : world_.tree().models()) {
+      make_sensors(model);
+      const bool is_new = std::find(before.begin(), before.end(), model) == before.end();
+      if (is_new) make_devices(model);  // the devices of the others are there
+    }
     index_sensors();
   }
   set_seed(seed);
   reset();
+}
+
+/// Adds those for each <gripper> of a model, and for its script.
+void Simulation::make_devices(ObjectId model) {
+  const ModelDescription& description = world_.models().description(model);
+  if (description.script) world_.devices().add(std::make_shared<ScriptedMotion>(world_, model), model);
+  if (description.grippers.empty() || description.is_static) return;
+  const std::vector<ObjectId> links = world_.tree().parts(model, ObjectKind::kLink);
+  const auto link_named = [&](const std::string& name) {
+    return *std::find_if(links.begin(), links.end(),
+                         [&](ObjectId link) { return description.links[world_.tree().at(link).index].name == name; });
+  };
+  for (const GripperDescription& gripper : description.grippers) {
+    GraspDescription grasp;
+    grasp.palm = link_named(gripper.palm);
+    for (const std::string& finger : gripper.fingers) grasp.fingers.push_back(link_named(finger));
+    grasp.min_contacts = gripper.min_contacts;
+    grasp.attach_updates = gripper.attach_steps;
+    grasp.detach_updates = gripper.detach_steps;
+    world_.devices().add(std::make_shared<Grasp>(world_, std::move(grasp)), model);
+  }
 }
 
 /// Puts back brightness and noise, and draws what the scene randomizes, as long as it has its own models.
@@ -188,6 +219,7 @@ std::vector<ObjectId> Simulation::add_models(std::vector<ModelDescription> model
   for (const ObjectId id : ids) {
     rays_->add_model(world_, id, world_.models().description(id));
     make_sensors(id);
+    make_devices(id);
   }
   index_sensors();
   for (const ObjectId id : ids) {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::string_view kMagic = "bubblesim state\n";
 /// Increase it when what is saved changes: tests/sim/run/test_snapshot.cpp has the sizes.
-constexpr std::uint32_t kVersion = 9;
+constexpr std::uint32_t kVersion = 10;
 
 struct Header {
   std::uint32_t version = kVersion;

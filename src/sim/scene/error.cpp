@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bubblesim/error.hpp"
 
+#include <exception>
 #include <utility>
 
 namespace bubblesim {
@@ -17,6 +18,16 @@ std::string joined(const std::vector<Problem>& problems) {
 std::string with_article(std::string_view noun) {
   const bool vowel = !noun.empty() && std::string_view("aeiouAEIOU").find(noun.front()) != std::string_view::npos;
   return (vowel ? "an " : "a ") + std::string(noun);
+}
+
+std::string text_of_handled_exception() {
+  try {
+    throw;
+  } catch (const std::exception& error) {
+    return error.what();
+  } catch (...) {
+    return "an exception that is not derived from std::exception";
+  }
 }
 
 std::string Problem::text() const {

@@ -165,9 +165,15 @@ class DescriptionHash {
     (*this)(f.name, f.link, f.pose);
     if (f.joint) (*this)(*f.joint, f.joint_position);
   }
+  void add(const GripperDescription& g) { (*this)(g.palm, g.fingers, g.min_contacts, g.attach_steps, g.detach_steps); }
+  void add(const Waypoint& w) { (*this)(w.time, w.pose); }
+  void add(const Trajectory& t) { (*this)(t.tension, t.waypoints); }
+  void add(const MotionScript& m) { (*this)(m.loop, m.delay, m.trajectories); }
   void add(const ModelDescription& m) {
     (*this)(m.name, m.pose, m.is_static, m.self_collide, m.canonical_link, m.links, m.joints, m.nested, m.plugins);
     if (!m.frames.empty()) add(m.frames);
+    if (!m.grippers.empty()) add(m.grippers);
+    if (m.script) add(*m.script);
   }
   void add(const Environment& e) {
     (*this)(e.ambient, e.background, e.sky, e.shadows, e.lights, e.origin.latitude, e.origin.longitude,

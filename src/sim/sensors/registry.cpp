@@ -27,6 +27,8 @@ const std::array kOwnKinds = {
     &define<class MagnetometerKind>,
     &define<class ContactKind>,
     &define<class ForceTorqueKind>,
+    &define<class AirPressureKind>,
+    &define<class LogicalCameraKind>,
 };
 // clang-format on
 

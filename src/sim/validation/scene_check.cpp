@@ -78,6 +78,26 @@ void check_environment(Checker& checker, const Environment& environment) {
   checker.require(within(origin.heading, 2 * M_PI), "the heading", text(origin.heading) + " rad", "-2 pi to 2 pi");
 }
 
+void check_script(Checker& checker, const ModelDescription& model) {
+  const MotionScript& script = *model.script;
+  if (!model.is_static) checker.report("a model with a script must be static: add <static>true</static>");
+  checker.require(script.delay >= 0 && script.delay <= 1e9, "the delay", text(script.delay) + " s", "from 0 to 1e9 s");
+  bool any = false;
+  for (const Trajectory& trajectory : script.trajectories) {
+    checker.require(trajectory.tension >= 0 && trajectory.tension <= 1, "the tension", text(trajectory.tension),
+                    "from 0 to 1");
+    double before = -1;
+    for (const Waypoint& waypoint : trajectory.waypoints) {
+      any = true;
+      checker.require(waypoint.time >= 0 && waypoint.time > before && waypoint.time <= 1e9, "the time of a waypoint",
+                      text(waypoint.time) + " s", "later than that of the one before, from 0 to 1e9 s");
+      before = waypoint.time;
+      checker.check_pose(waypoint.pose);
+    }
+  }
+  checker.require(any, "the number of waypoints", "0", "1 or more");
+}
+
 void check_model(Checker& checker, const ModelDescription& model) {
   checker.enter(model);
   checker.at(model.source, "/" + model.name);
@@ -98,6 +118,17 @@ void check_model(Checker& checker, const ModelDescription& model) {
     check_joint(checker, model, joint);
     check_sensors(checker, joint, "/" + model.name + "/" + joint.name);
   }
+  for (const GripperDescription& gripper : model.grippers) {
+    checker.at(gripper.source, "/" + model.name + "/" + gripper.name);
+    checker.require(!gripper.fingers.empty(), "the number of gripper links", "0", "1 or more");
+    checker.require(gripper.min_contacts >= 1, "the number of contacts", std::to_string(gripper.min_contacts),
+                    "1 or more");
+    checker.require(gripper.attach_steps >= 0 && gripper.detach_steps >= 0, "the number of steps",
+                    std::to_string(std::min(gripper.attach_steps, gripper.detach_steps)), "0 or more");
+    checker.check_link_name(gripper.palm, "palm link");
+    for (const std::string& finger : gripper.fingers) checker.check_link_name(finger, "gripper link");
+  }
+  if (model.script) check_script(checker, model);
   for (const NestedModelDescription& nested : model.nested) {
     once(nested.source, nested.name);
     checker.check_pose(nested.pose);

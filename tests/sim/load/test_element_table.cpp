@@ -8,6 +8,7 @@
 
 #include "load/sdf/elements/element_kinds.hpp"
 #include "load/sdf/elements/sdf_element.hpp"
+#include "scene/text_values.hpp"
 
 namespace bubblesim::test::test_element_table {
 namespace {

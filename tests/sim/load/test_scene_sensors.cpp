@@ -117,14 +117,33 @@ TEST(Sonar, OfAFileHasTheVolumeNamed) {
 
 TEST(Sensors, OfAKindThatIsNotSimulatedAreLeftOutWithAWarning) {
   std::vector<Problem> warnings;
-  const TemporaryFile file("logical_camera.sdf", in_world("<model name='m'><link name='l'>\n<sensor name='s' "
-                                                          "type='logical_camera'/></link></model>"));
+  const TemporaryFile file("air_speed.sdf", in_world("<model name='m'><link name='l'>\n<sensor name='s' "
+                                                     "type='air_speed'/></link></model>"));
   const SceneDescription scene = read_scene(file.path(), {}, &warnings);
   const std::string warning = lines_of(warnings);
   EXPECT_TRUE(scene.models.at(0).links.at(0).sensors.empty());
-  EXPECT_NE(warning.find("logical_camera.sdf:2: /m/l/s: sensors of type 'logical_camera' are not simulated"),
-            std::string::npos)
+  EXPECT_NE(warning.find("air_speed.sdf:2: /m/l/s: sensors of type 'air_speed' are not simulated"), std::string::npos)
       << warning;
+}
+
+TEST(AirPressure, HoldsWhatTheFileStates) {
+  const SensorDescription sensor = loaded(
+      "<sensor name='s' type='air_pressure'><air_pressure><reference_altitude>440</reference_altitude><pressure>"
+      "<noise type='gaussian'><stddev>3</stddev></noise></pressure></air_pressure></sensor>");
+  const auto& read = sensor.kind.get<AirPressureDescription>();
+  EXPECT_EQ(read.reference_altitude, 440);
+  EXPECT_EQ(read.pressure_noise.stddev, 3);
+}
+
+TEST(LogicalCamera, HoldsWhatTheFileStates) {
+  const SensorDescription sensor = loaded(
+      "<sensor name='s' type='logical_camera'><logical_camera><near>0.5</near><far>7</far>"
+      "<aspect_ratio>1.5</aspect_ratio><horizontal_fov>1.1</horizontal_fov></logical_camera></sensor>");
+  const auto& read = sensor.kind.get<LogicalCameraDescription>();
+  EXPECT_EQ(read.near, 0.5);
+  EXPECT_EQ(read.far, 7);
+  EXPECT_EQ(read.aspect_ratio, 1.5);
+  EXPECT_EQ(read.horizontal_fov, 1.1);
 }
 
 TEST(Altimeter, HoldsWhatTheFileStates) {

@@ -154,12 +154,14 @@ TEST(Snapshot, KeepsDevices) {
   });
 }
 
-TEST(Snapshot, KeepsMassFrictionAndGravity) {
+TEST(Snapshot, KeepsMassSurfacesAndGravity) {
   const auto scene = std::make_shared<const Scene>(heap());
   expect_equal_futures(scene, "properties", 40, [](Simulation& simulation) {
     World& world = simulation.world();
     world.properties().set_mass(world.tree().find("/Arm"), 7.3);
     world.properties().set_friction(world.tree().find("/Floor"), 0.2);
+    world.properties().set_slip(world.tree().find("/Box2/link"), {1, 1, 0}, 0.01, 0.02);
+    world.properties().set_belt(world.tree().find("/Box4/link"), {0, 1, 0}, 0.3);
     world.properties().set_gravity({0, 1, -5});
   });
   Simulation simulation(scene, 5);
@@ -181,6 +183,19 @@ TEST(Snapshot, KeepsMassFrictionAndGravity) {
   other.restore(start);
   EXPECT_TRUE(other.save() == start);
   EXPECT_EQ(other.world().properties().friction(world.tree().find("/Box2")), 1);
+}
+
+TEST(Snapshot, KeepsAttachments) {
+  for (const Solver solver : {Solver::kBubblesim, Solver::kOde}) {
+    SceneDescription described = heap();
+    described.solver = solver;
+    expect_equal_futures(std::make_shared<const Scene>(described),
+                         solver == Solver::kOde ? "attachments, ODE" : "attachments", 40, [](Simulation& simulation) {
+                           World& world = simulation.world();
+                           world.attachments().attach(world.tree().find("/Arm/c"), world.tree().find("/Box1/link"));
+                           world.attachments().attach(world.tree().find("/Box2/link"), world.tree().find("/Box3/link"));
+                         });
+  }
 }
 
 /// Two hinges of one model, of which the second mimics the first; both may turn by some turns.
@@ -240,8 +255,8 @@ TEST(Snapshot, RemovesModelsThatWereAddedSince) {
 TEST(Snapshot, HasTheSizeOfItsVersion) {
   Simulation simulation(scene({floor(), model("Box", link_with(Box{{1, 1, 1}}), at(0, 0, 2))}));
   const std::string saved = simulation.save();
-  EXPECT_EQ(static_cast<int>(saved[16]), 9) << "version";
-  EXPECT_EQ(saved.size(), 855U) << "bytes";
+  EXPECT_EQ(static_cast<int>(saved[16]), 10) << "version";
+  EXPECT_EQ(saved.size(), 867U) << "bytes";
 }
 
 }  // namespace

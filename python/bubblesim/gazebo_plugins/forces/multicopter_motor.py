@@ -45,7 +45,7 @@ class MulticopterMotor(Plugin):
         p.check()
         self._rotor = Rotor(self.simulation, self._joint, clockwise, **numbers)
         context.endpoints.append(self._rotor.remove)
-        context.rotors[self._joint] = self._rotor
+        context.actuators[self._joint] = self._rotor
         self._short = False
         self._publisher: int | None = None
         self.subscribe(topic, "mav_msgs/Actuators", self._command)
@@ -54,7 +54,7 @@ class MulticopterMotor(Plugin):
 
     def close(self) -> None:
         """Remove the rotor."""
-        self.context.rotors.pop(self._joint, None)
+        self.context.actuators.pop(self._joint, None)
         super().close()
 
     def _command(self, message: Message) -> None:

@@ -45,10 +45,10 @@ class MulticopterVelocity(Plugin):
     def fly(self, linear: tuple[float, float, float], yaw_rate: float) -> None:
         """Fly at a velocity along the axes of the link, m/s, and a yaw rate, rad/s."""
         if self._control is None:
-            missing = [self.world.name(joint) for joint in self._joints if joint not in self.context.rotors]
+            missing = [self.world.name(joint) for joint in self._joints if joint not in self.context.actuators]
             if missing:
                 raise self.parameters.fail("rotorConfiguration", f"has joints without a motor: {', '.join(missing)}")
-            rotors = [self.context.rotors[joint] for joint in self._joints]
+            rotors = [self.context.actuators[joint] for joint in self._joints]
             self._control = MulticopterVelocityControl(self.simulation, self._link, rotors, **self._gains)
             self.context.endpoints.append(self._control.remove)
         self._control.set_velocity(linear, yaw_rate)

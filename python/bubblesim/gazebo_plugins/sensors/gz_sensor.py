@@ -24,6 +24,8 @@ _SERVED = {
     "gps": ("gz-navsat-system", "navsat"),
     "altimeter": ("gz-altimeter-system", "altimeter"),
     "magnetometer": ("gz-magnetometer-system", "magnetometer"),
+    "air_pressure": ("gz-air-pressure-system", "air_pressure"),
+    "logical_camera": ("gz-logical-camera-system", "logical_camera"),
     "contact": ("gz-contact-system", "contact"),
     "force_torque": ("gz-forcetorque-system", "forcetorque"),
 }

@@ -13,6 +13,7 @@ from bubblesim._core.reading_messages import (
     color_image,
     contacts_state,
     depth_image,
+    fluid_pressure,
     imu,
     laser_scan,
     lidar_cloud,
@@ -52,7 +53,8 @@ class SensorTopic(Plugin):
     A sonar publishes a Range, infinite without an echo (REP 117); a lidar of one ring a LaserScan, of several a
     PointCloud2; a camera an Image (a depth camera in metres) and a camera_info; an IMU an Imu; a GPS receiver a
     NavSatFix; an altimeter a PointStamped, whose z is the height above its start; a magnetometer a MagneticField; a
-    contact sensor a ContactsState in world axes; a force-torque sensor a WrenchStamped.
+    barometer a FluidPressure; a logical camera a ModelStates with poses in its own frame; a contact sensor a
+    ContactsState in world axes; a force-torque sensor a WrenchStamped.
     """
 
     def __init__(self, context: PluginContext) -> None:
@@ -127,6 +129,10 @@ class SensorTopic(Plugin):
                 return "geometry_msgs/PointStamped", lambda header, reading: point(header, (0.0, 0.0, reading.height))
             case "MagnetometerReading":
                 return "sensor_msgs/MagneticField", lambda header, reading: magnetic_field(header, reading.field)
+            case "AirPressureReading":
+                return "sensor_msgs/FluidPressure", lambda header, reading: fluid_pressure(header, reading.pressure)
+            case "LogicalCameraReading":
+                return "gazebo_msgs/ModelStates", _model_states
             case "ContactReading":
                 return "gazebo_msgs/ContactsState", self._contacts
             case "ForceTorqueReading":
@@ -142,6 +148,19 @@ class SensorTopic(Plugin):
         return range_message(
             header, _ULTRASOUND, 2 * angle, least, most, reading.distance if reading.detected else math.inf
         )
+
+
+def _model_states(_: Any, reading: Any) -> dict[str, Any]:
+    """Return the poses in the frame of the camera; velocities are not measured."""
+    still = {part: dict.fromkeys("xyz", 0.0) for part in ("linear", "angular")}
+    poses = [
+        {
+            "position": dict(zip("xyz", map(float, seen.position), strict=True)),
+            "orientation": dict(zip("xyzw", map(float, seen.orientation), strict=True)),
+        }
+        for seen in reading.models
+    ]
+    return {"name": [seen.name for seen in reading.models], "pose": poses, "twist": [still] * len(poses)}
 
 
 def _fix(header: Any, reading: Any) -> Any:

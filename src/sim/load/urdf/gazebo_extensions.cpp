@@ -11,6 +11,7 @@
 #include "load/sdf/elements/check_values.hpp"
 #include "load/sdf/elements/sdf_element.hpp"
 #include "load/urdf/urdf_values.hpp"
+#include "scene/text_values.hpp"
 
 namespace bubblesim {
 namespace {

@@ -21,6 +21,7 @@
 #include "load/urdf/link_element.hpp"
 #include "load/urdf/urdf_robot.hpp"
 #include "load/urdf/urdf_values.hpp"
+#include "scene/text_values.hpp"
 
 namespace bubblesim {
 namespace {
@@ -41,6 +42,7 @@ class ModelMaker {
   ModelDescription make() {
     name_joints();
     move_plugins();
+    name_gripper_links();
     XmlElement& content = extensions_.model;
     content.set_attribute("name", robot_.name);
     make_names_unique(content, "/" + robot_.name, context_);
@@ -91,6 +93,18 @@ class ModelMaker {
         if (place == places_.end() || place->second.part->joint == nullptr) continue;  // it is no lumped link
         replace_text(plugin, name, place->second.body->link().name);
         move_offset(plugin, place->second.part->pose);
+      }
+    }
+  }
+
+  /// Grippers that name a lumped link get the link that it is a part of.
+  void name_gripper_links() {
+    for (XmlElement& gripper : extensions_.model.children) {
+      if (gripper.name != "gripper") continue;
+      for (XmlElement& child : gripper.children) {
+        const auto place = places_.find(trimmed(child.text));
+        const bool is_link = child.name == "palm_link" || child.name == "gripper_link";
+        if (is_link && place != places_.end()) child.text = place->second.body->link().name;
       }
     }
   }

@@ -9,6 +9,7 @@
 #include "bubblesim/nearest_names.hpp"
 #include "load/sdf/elements/sdf_element.hpp"
 #include "load/urdf/urdf_values.hpp"
+#include "scene/text_values.hpp"
 
 namespace bubblesim {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "load/sdf/elements/sdf_element.hpp"
+#include "scene/text_values.hpp"
 
 namespace bubblesim {
 namespace {

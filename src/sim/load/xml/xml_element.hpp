@@ -49,7 +49,4 @@ struct XmlElement {
 /// The number of elements, with all below.
 std::size_t count_elements(const XmlElement& element);
 
-/// The text without white space at its ends.
-std::string trimmed(std::string_view text);
-
 }  // namespace bubblesim

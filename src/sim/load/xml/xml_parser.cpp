@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "load/xml/xml_tags.hpp"
+#include "scene/text_values.hpp"
 
 namespace bubblesim {
 namespace {

@@ -19,6 +19,10 @@ namespace {
 static_assert(Islands::kNone == Collider::kNoModel);
 
 Vector3 turned(dGeomID geom, const Vector3& direction) {
+  if (dGeomGetClass(geom) == dPlaneClass) {  // it has no quaternion
+    const Collider& plane = collider_of(geom);
+    return link_pose(*plane.link).orientation * (plane.in_link.orientation * direction);
+  }
   dQuaternion q;
   dGeomGetQuaternion(geom, q);
   return to_quaternion(q) * direction;
@@ -43,6 +47,19 @@ void sink(double depth, const SurfacePair& pair, double step, dContact& contact)
   contact.surface.motionN = -std::min(pair.sink_speed, kErrorReduction * left / step);
 }
 
+/// Lets friction drive a contact to the velocity at which the surfaces run on their shapes. The normal points into the
+/// first shape.
+void run_belts(const Vector3& first_belt, const Vector3& second_belt, dContact& contact) {
+  const Vector3 normal = to_vector(contact.geom.normal);
+  const Vector3 wanted = first_belt.cross(normal) + second_belt.cross(normal);  // of the first body to the second one
+  if (wanted == Vector3::Zero()) return;
+  if ((contact.surface.mode & dContactFDir1) == 0) direct(wanted, contact);
+  const Vector3 first = to_vector(contact.fdir1);
+  contact.surface.mode |= dContactMotion1 | dContactMotion2;
+  contact.surface.motion1 = wanted.dot(first);
+  contact.surface.motion2 = wanted.dot(normal.cross(first));
+}
+
 /// Whether joints or a motor act on the links of a model.
 bool is_jointed(const PlacedModel& model) { return !model.joints.empty() || model.planar_motor.exists(); }
 
@@ -61,6 +78,7 @@ void touch(void* data, dGeomID first, dGeomID second) {
   dBodyID body_a = dGeomGetBody(first);
   dBodyID body_b = dGeomGetBody(second);
   if (body_a != nullptr && body_b != nullptr && dAreConnectedExcluding(body_a, body_b, dJointTypeContact) != 0) return;
+  if (are_held(substep.holds, *a.link, *b.link)) return;
 
   ContactPoints points;
   const Surface& surface_a = a.surface();
@@ -70,6 +88,8 @@ void touch(void* data, dGeomID first, dGeomID second) {
   if (count == 0) return;
   place_on_round_shape(first, second, count, points.data());
   contacts.islands.touch(a.model, b.model, count);
+  const bool has_belt = surface_a.belt != Vector3::Zero() || surface_b.belt != Vector3::Zero();
+  if (has_belt) contacts.islands.join(a.model, b.model);  // only the solvers of joints know belts
   contacts.found.pairs.push_back({&a, &b, contacts.found.points.size(), count});
   SurfacePair pair = combine(surface_a, surface_b, step);
   share_load(1 / a.model_mass + 1 / b.model_mass, step, pair);
@@ -88,6 +108,7 @@ void touch(void* data, dGeomID first, dGeomID second) {
     if (pair.directed != nullptr) {
       direct(turned(pair.directed == &surface_a ? first : second, pair.directed->fdir1), contact);
     }
+    if (has_belt) run_belts(turned(first, surface_a.belt), turned(second, surface_b.belt), contact);
   }
 }
 
@@ -132,6 +153,10 @@ void search_contacts(Substep& substep) {
   substep.contacts.found.clear();
   islands.clear(moving.all.size());
   for (const PlacedModel* model : moving.awake) islands.add(model->number, is_jointed(*model));
+  for (const Hold& hold : substep.holds) {  // of models that sleep or are awake together
+    if (!hold.model->rest.is_awake()) continue;
+    islands.join(hold.model->number, hold.holder_model == nullptr ? Islands::kNone : hold.holder_model->number);
+  }
   // Collide models with each other; shapes of one model collide only with self_collide.
   if (moving.awake.size() > 1) dSpaceCollide(spaces.movers.get(), &substep, touch_spaces);
   const bool any_sleeps = moving.awake.size() < moving.all.size();

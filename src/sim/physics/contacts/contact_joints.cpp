@@ -27,8 +27,17 @@ void take_force(const FoundPair& pair, FoundContact& point) {
   if (point.contact.surface.rho > 0) point.torque = torque_about_point(pair, point);
 }
 
+void join_holds(Substep& substep) {
+  Islands& islands = substep.contacts.islands;
+  for (const Hold& hold : substep.holds) {
+    if (!hold.model->rest.is_awake() || islands.is_by_trees(islands.of(hold.model->number))) continue;
+    join(substep.ode.id(), substep.ode.contact_joints.get(), hold);
+  }
+}
+
 void join_contacts(Substep& substep) {
   Contacts& contacts = substep.contacts;
+  join_holds(substep);
   ContactLookup lookup(contacts.memory);
   for (const FoundPair& pair : contacts.found.pairs) {
     const int island = contacts.islands.of(pair.first->model);

@@ -12,6 +12,9 @@ void join(OdeWorld& ode, const FoundPair& pair, FoundContact& point);
 /// Takes the force and the torque that ODE applied.
 void take_force(const FoundPair& pair, FoundContact& point);
 
+/// Holds the links that are attached to each other, where ODE solves their islands.
+void join_holds(Substep& substep);
+
 /// Creates the joints of the contacts that were found in islands with joints.
 void join_contacts(Substep& substep);
 

@@ -165,6 +165,7 @@ void FrictionIteration::put_back(const std::vector<KeptBody>& before) const {
 
 bool FrictionIteration::solve(Substep& substep, const std::vector<KeptBody>& before) {
   dJointGroupEmpty(substep.ode.contact_joints.get());
+  join_holds(substep);
   for (const Pair& pair : pairs_) {
     if (!is_again(pair.island)) continue;
     FoundContact* points = &substep.contacts.found.points[pair.found->begin];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact islands: sets of models that are connected by contacts, with their number of contacts.
+// Contact islands: sets of models that are connected by contacts or attachments, with their number of contacts.
 #pragma once
 
 #include <algorithm>
@@ -51,6 +51,12 @@ class Islands {
     }
     contacts_[index(a)] += contacts;
     if (jointed_[index(a)]) most_ = std::max(most_, contacts_[index(a)]);
+  }
+
+  /// Connects two models by what only the solvers of joints know; one of them may be kNone.
+  void join(int a, int b) {
+    touch(a, b, 0);
+    jointed_[index(root(a == kNone ? b : a))] = true;
   }
 
   /// The island of a model.

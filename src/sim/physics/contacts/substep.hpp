@@ -10,6 +10,7 @@
 #include "physics/contacts/islands.hpp"
 #include "physics/contacts/spaces.hpp"
 #include "physics/ode/ode_world.hpp"
+#include "physics/parts/hold.hpp"
 #include "physics/parts/placed_model.hpp"
 
 namespace bubblesim {
@@ -31,6 +32,7 @@ struct Substep {
   const Spaces& spaces;
   OdeWorld& ode;
   Contacts& contacts;
+  const Holds& holds;
   Solver solver = Solver::kBubblesim;  // of islands with joints
 };
 

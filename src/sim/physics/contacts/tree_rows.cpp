@@ -109,12 +109,7 @@ void TreeModel::close_loop(std::size_t number, ConstraintRows& rows, double step
   const Vector3 turned = Vector3(turn.vec()) * (turn.w() < 0 ? -2 : 2);  // rad, while it is small
   const Vector3 tilt =
       description.axes.empty() ? Vector3() : axis.cross(child.orientation * description.axes[0].direction);
-  const auto hold = [&](int row, double error) {
-    rows.set(row, -kErrorReduction * error / step, kConstraintSoftness / step, 0);
-    ConeBlock block;
-    block.row = row;
-    rows.bound(block);
-  };
+  const auto hold = [&](int row, double error) { rows.hold(row, error, step); };
   for (std::size_t i = motion == TreeMotion::kSlides ? 1 : 0; i < 3; ++i) {
     hold(rows.add_force(first, second, child.position, directions[i]), directions[i].dot(apart));
   }
@@ -132,10 +127,7 @@ void TreeModel::couple(std::size_t number, ConstraintRows& rows, double step) {
   const int row = rows.add_torque(body_of(gearbox.child), reference, shafts.child_axis);
   rows.add_torque_to_last(body_of(gearbox.parent), reference, shafts.parent_axis * shafts.ratio);
   const double error = gearbox.joint->position(1) + shafts.ratio * gearbox.joint->position(0);
-  rows.set(row, -kErrorReduction * error / step, kConstraintSoftness / step, 0);
-  ConeBlock block;
-  block.row = row;
-  rows.bound(block);
+  rows.hold(row, error, step);
 }
 
 void TreeModel::add_planar_motor(ConstraintRows& rows, double step) {

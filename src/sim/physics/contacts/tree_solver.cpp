@@ -83,6 +83,10 @@ void TreeSolver::solve_island(Substep& substep) {
   points_.clear();
   each_model([&](TreeModel& model) { model.begin(substep.gravity, step); });
   each_model([&](TreeModel& model) { model.add_rows(rows_, step); });
+  for (const Hold& hold : substep.holds) {
+    const PlacedModel& model = *hold.model;
+    if (model.rest.is_awake() && substep.contacts.islands.of(model.number) == island) add_hold(hold, step);
+  }
   while (next_pair_ < pairs_.size() && pairs_[next_pair_].island < island) ++next_pair_;  // of sleeping models
   for (; next_pair_ < pairs_.size() && pairs_[next_pair_].island == island; ++next_pair_) {
     add_pair(pairs_[next_pair_], substep);
@@ -103,6 +107,20 @@ void TreeSolver::solve_island(Substep& substep) {
                        step;
   }
   each_model([&](TreeModel& model) { model.end(rows_, step); });
+}
+
+void TreeSolver::add_hold(const Hold& hold, double step) {
+  const TreeBody link = hold.model->trees->body(*hold.link);
+  const TreeBody holder = hold.holder == nullptr ? TreeBody{} : hold.holder_model->trees->body(*hold.holder);
+  const Pose here = link_pose(*hold.link);
+  const Pose wanted = held_pose(hold);
+  const Vector3 apart = here.position - wanted.position;
+  const Quaternion turn = here.orientation * wanted.orientation.conjugate();
+  const Vector3 turned = Vector3(turn.vec()) * (turn.w() < 0 ? -2 : 2);  // rad, while it is small
+  for (const Vector3& direction : {Vector3(Vector3::UnitX()), Vector3(Vector3::UnitY()), Vector3(Vector3::UnitZ())}) {
+    rows_.hold(rows_.add_force(link, holder, here.position, direction), direction.dot(apart), step);
+    rows_.hold(rows_.add_torque(link, holder, direction), direction.dot(turned), step);
+  }
 }
 
 void TreeSolver::add_pair(const IslandPair& island_pair, Substep& substep) {
@@ -160,8 +178,10 @@ void TreeSolver::add_point(const TreeBody& a, const TreeBody& b, const FoundPair
   normal.row = point.normal;
   normal.lower = 0;
   rows_.bound(normal);
-  add(point.tangent1, 0, (surface.mode & dContactSlip1) != 0 ? surface.slip1 : 0);
-  add(point.tangent2, 0, (surface.mode & dContactSlip2) != 0 ? surface.slip2 : 0);
+  add(point.tangent1, (surface.mode & dContactMotion1) != 0 ? surface.motion1 : 0,
+      (surface.mode & dContactSlip1) != 0 ? surface.slip1 : 0);
+  add(point.tangent2, (surface.mode & dContactMotion2) != 0 ? surface.motion2 : 0,
+      (surface.mode & dContactSlip2) != 0 ? surface.slip2 : 0);
   const double mu2 = (surface.mode & dContactMu2) != 0 ? surface.mu2 : surface.mu;
   const auto bound = [&](int row, int size, double mu) {
     ConeBlock block;

@@ -38,6 +38,7 @@ class TreeSolver {
 
   void gather(Substep& substep);
   void solve_island(Substep& substep);
+  void add_hold(const Hold& hold, double step);
   void add_pair(const IslandPair& pair, Substep& substep);
   void add_point(const TreeBody& a, const TreeBody& b, const FoundPair& pair, FoundContact& found,
                  const ExpectedContact& start, double step);

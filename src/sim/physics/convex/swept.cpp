@@ -31,10 +31,10 @@ bool are_apart(const MovingShape& a, const MovingShape& b) {
 
 }  // namespace
 
-RigidMotion::RigidMotion(const Transform& start, const Transform& end)
+SweptMotion::SweptMotion(const Transform& start, const Transform& end)
     : end_(end), travel_(end.position - start.position), turn_(end.rotation * start.rotation.transpose()) {}
 
-Transform RigidMotion::back_to(double fraction) const {
+Transform SweptMotion::back_to(double fraction) const {
   const double left = 1 - fraction;
   const Matrix3 rotation = Eigen::AngleAxisd(-turn_.angle() * left, turn_.axis()).toRotationMatrix();
   return {end_.position - travel_ * left - rotation * end_.position, rotation};

@@ -9,11 +9,11 @@
 namespace bubblesim {
 
 /// The motion of a body during a substep: it moves straight, and turns about one axis.
-class RigidMotion {
+class SweptMotion {
  public:
-  RigidMotion(const Transform& start, const Transform& end);
+  SweptMotion(const Transform& start, const Transform& end);
   /// A body that does not move.
-  RigidMotion() = default;
+  SweptMotion() = default;
 
   /// From its pose at the end to that at a fraction of the motion, in the world.
   Transform back_to(double fraction) const;
@@ -32,7 +32,7 @@ class RigidMotion {
 /// A shape at the end of the motion of its body.
 struct MovingShape {
   const ConvexShape& shape;
-  const RigidMotion& motion;
+  const SweptMotion& motion;
 };
 
 /// The fraction of the motion after which the shapes overlap slightly for the first time; empty when they do not meet,

@@ -56,7 +56,7 @@ class ImpactSearch {
     return std::any_of(fast_.begin(), fast_.end(), [&](const FastLink& one) { return one.link == link; });
   }
 
-  static RigidMotion motion_of(const Link& link) {
+  static SweptMotion motion_of(const Link& link) {
     if (link.body == nullptr) return {};
     return {link.sweep.start, body_transform(link.body.get())};
   }
@@ -66,7 +66,7 @@ class ImpactSearch {
     current_ = &collider;
     dReal box[6];
     dGeomGetAABB(collider.geom.get(), box);
-    const RigidMotion motion = motion_of(*collider.link);
+    const SweptMotion motion = motion_of(*collider.link);
     const Bounds own(Vector3(box[0], box[2], box[4]), Vector3(box[1], box[3], box[5]));
     const Vector3 middle = own.center();
     const Bounds centres = Bounds(middle).extend(motion.back_to(0) * middle);
@@ -100,8 +100,8 @@ class ImpactSearch {
   void test(const Collider& a, const Collider& b) {
     if (!may_touch(a, b)) return;
     if (a.model == b.model && !moving_.at(a.model).description.self_collide) return;
-    const RigidMotion motion_a = motion_of(*a.link);
-    const RigidMotion motion_b = motion_of(*b.link);
+    const SweptMotion motion_a = motion_of(*a.link);
+    const SweptMotion motion_b = motion_of(*b.link);
     shapes_of(a.geom.get(), shapes_a_);
     list_obstacles(b);
     for (const ConvexShape& shape : shapes_a_) {
@@ -186,7 +186,7 @@ void put_back(const PlacedModel& model, const Vector3& gravity, double fraction,
   const Vector3 excess = gravity * (step * (1 - fraction));  // of the speed of fall
   for (const Link& link : model.links) {
     dBodyID body = link.body.get();
-    const Transform at = RigidMotion(link.sweep.start, body_transform(body)).at(fraction);
+    const Transform at = SweptMotion(link.sweep.start, body_transform(body)).at(fraction);
     dMatrix3 rotation = {};
     Eigen::Map<Eigen::Matrix<dReal, 3, 4, Eigen::RowMajor>>(rotation).leftCols<3>() = at.rotation;
     dBodySetPosition(body, at.position.x(), at.position.y(), at.position.z());

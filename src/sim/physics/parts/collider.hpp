@@ -27,8 +27,8 @@ struct Collider {
   const Link* link = nullptr;
   const std::string& name;
   const Geometry& geometry;
-  const Surface& given_surface;                // of the description
-  std::unique_ptr<const Surface> own_surface;  // in its place, after a change
+  const Surface& given_surface;          // of the description
+  std::unique_ptr<Surface> own_surface;  // in its place, after a change
   const Pose& in_link;
   bool watched = false;          // observed by a contact sensor
   int model = kNoModel;          // index of its outermost model among the moving ones; kNoModel when it is static
@@ -36,6 +36,10 @@ struct Collider {
   ObjectId carrier = kNoObject;  // the outermost model that carries its static link: they do not collide
   double model_mass = 0;         // kg, of its outermost model; infinite when it is static
 
+  Surface& changing_surface() {
+    if (own_surface == nullptr) own_surface = std::make_unique<Surface>(given_surface);
+    return *own_surface;
+  }
   const Surface& surface() const { return own_surface == nullptr ? given_surface : *own_surface; }
 };
 

@@ -7,6 +7,7 @@
 
 #include "physics/ode/body_state.hpp"
 #include "physics/ode/ode_math.hpp"
+#include "physics/parts/put_for_a_moment.hpp"
 #include "scene/joint_kind.hpp"
 
 namespace bubblesim {
@@ -15,21 +16,6 @@ namespace {
 const Link& link_of(const PlacedModel& model, ObjectId id) {
   return *std::find_if(model.links.begin(), model.links.end(), [&](const Link& link) { return link.object == id; });
 }
-
-/// Puts a body elsewhere, and back in the end.
-class PutForAMoment {
- public:
-  PutForAMoment(const Link& link, const Pose& pose) : body_(link.body.get()), before_(body_pose(body_)) {
-    set_body_pose(body_, {pose * link.centre_of_mass, pose.orientation});
-  }
-  ~PutForAMoment() { set_body_pose(body_, before_); }
-  PutForAMoment(const PutForAMoment&) = delete;
-  PutForAMoment& operator=(const PutForAMoment&) = delete;
-
- private:
-  dBodyID body_;
-  Pose before_;
-};
 
 }  // namespace
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "physics/ode/constraint_defaults.hpp"
+
 namespace bubblesim {
 namespace {
 
@@ -81,6 +83,13 @@ int ConstraintRows::add_dof(Tree& tree, int dof) {
 }
 
 void ConstraintRows::set_of_contact(int row) { rows_[at(row)].singular = kOfContacts; }
+
+void ConstraintRows::hold(int row, double error, double step) {
+  set(row, -kErrorReduction * error / step, kConstraintSoftness / step, 0);
+  ConeBlock block;
+  block.row = row;
+  bound(block);
+}
 
 void ConstraintRows::set(int row, double target, double softness, double start) {
   rows_[at(row)].target = target;

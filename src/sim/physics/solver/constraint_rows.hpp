@@ -36,6 +36,9 @@ class ConstraintRows {
   void set_of_contact(int row);
   void bound(const ConeBlock& block) { problem_.blocks.push_back(block); }
 
+  /// Lets a row keep two parts together: `error`, m or rad, is how far apart they are along it.
+  void hold(int row, double error, double step);
+
   /// Finds the impulses and changes the rates of the trees, which are factored.
   ConeResult solve();
   double impulse(int row) const { return problem_.x[row]; }

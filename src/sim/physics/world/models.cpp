@@ -90,6 +90,7 @@ void WorldModels::remove(ObjectId model) {
   forget_contacts(state(), model);
   state().contacts.found.clear();
   forget_frames(state(), model);
+  forget_holds(state(), model);
   state().statics_stale = state().statics_stale || description(model).is_static;
   const auto is_it = [model](const auto& placed) { return placed->object == model; };
   state().models.erase(std::find_if(state().models.begin(), state().models.end(), is_it));

@@ -258,6 +258,7 @@ void move(WorldState& state, const Movers& moving, const Pose& before, const Pos
   }
   for (const ObjectId id : models) anchor_moved(state, state.model_of(id), moving.links);
   place_joints(state, joints);
+  hold_moved(state, moving.links);
   // Those that are carried keep their new place on what carries them, which may have moved, too.
   for (const ObjectId id : moving.links) {
     if (state.link(id).body == nullptr) attach_static(state, id, state.link(id).carrier);

@@ -138,8 +138,9 @@ void transfer_physics(StateArchive& archive, WorldState& state) {
     if (!within(gravity, kMaxGravity)) throw InvalidInput("the saved state has a gravity that is not usable");
     apply_gravity(state, gravity);
   }
+  transfer_holds(archive, state);
   for (PlacedModel* model : state.moving.all) transfer_model(archive, state, *model);
-  transfer_frictions(archive, state);
+  transfer_surfaces(archive, state);
   transfer_places(archive, state);
   transfer_frames(archive, state);
   transfer_memory(archive, state, state.contacts.memory);

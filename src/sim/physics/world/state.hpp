@@ -20,6 +20,7 @@
 #include "physics/contacts/touches.hpp"
 #include "physics/ode/ode_math.hpp"
 #include "physics/ode/ode_world.hpp"
+#include "physics/parts/hold.hpp"
 #include "physics/parts/placed_model.hpp"
 
 namespace bubblesim {
@@ -85,7 +86,9 @@ struct WorldState {
   OdeWorld ode;
   Spaces spaces;
   std::vector<std::unique_ptr<PlacedModel>> models;  // in the order in which they were added
-  std::vector<PlacedModel*> model_at;                // by SceneTree::index_of(); null for other objects
+  Holds holds;
+  AttachmentId attachments_made = 0;   // since the reset
+  std::vector<PlacedModel*> model_at;  // by SceneTree::index_of(); null for other objects
   MovingModels moving;
   std::vector<Collider*> colliders;  // by Collider::number
   Wrenches wrenches;                 // of the next advance()
@@ -148,6 +151,13 @@ void add_pose(Fnv1a& hash, const Pose& pose);
 /// Adds what is not where its description has it.
 void add_places(Fnv1a& hash, const WorldState& state);
 
+/// Holds links as they are now, after some of them were put elsewhere.
+void hold_moved(WorldState& state, const std::set<ObjectId>& links);
+/// Ends the attachments of an outermost model that will be removed.
+void forget_holds(WorldState& state, ObjectId model);
+void transfer_holds(StateArchive& archive, WorldState& state);
+void add_holds(Fnv1a& hash, const WorldState& state);
+
 /// A joint without physics; null for other objects.
 const PlacedFrame* kinematic_joint(const WorldState& state, ObjectId object);
 PlacedFrame* kinematic_joint(WorldState& state, ObjectId object);
@@ -192,8 +202,9 @@ void lower_bottom(WorldState& state);
 void apply_gravity(WorldState& state, const Vector3& gravity);
 /// Saves or restores the masses of a model's links.
 void transfer_masses(StateArchive& archive, PlacedModel& model);
-/// Saves or restores the friction coefficients that were changed.
-void transfer_frictions(StateArchive& archive, WorldState& state);
+/// Saves or restores the friction and the slip that were changed.
+void transfer_surfaces(StateArchive& archive, WorldState& state);
+void add_surfaces(Fnv1a& hash, const WorldState& state);
 /// Saves or restores the physics without devices, seed and random numbers.
 void transfer_physics(StateArchive& archive, WorldState& state);
 

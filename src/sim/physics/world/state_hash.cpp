@@ -86,6 +86,8 @@ std::uint64_t World::state_hash() const {
   for (const DeviceSlot& slot : state_->devices) add_scheduled(hash, slot);
   add_frames(hash, *state_);
   add_places(hash, *state_);
+  add_surfaces(hash, *state_);
+  add_holds(hash, *state_);
   hash.add(state_->seed);
   hash.add(static_cast<std::uint64_t>(state_->ode.random));
   return hash.value();

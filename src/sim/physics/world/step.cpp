@@ -111,7 +111,7 @@ void end_meters(Substep& substep) {
 
 void simulate(WorldState& state, const Wrenches& wrenches, double step) {
   MovingModels& moving = state.moving;
-  Substep substep{step, state.gravity, moving, state.spaces, state.ode, state.contacts, state.solver};
+  Substep substep{step, state.gravity, moving, state.spaces, state.ode, state.contacts, state.holds, state.solver};
   try {
     push_links(state, wrenches);
     for (const DeviceSlot& slot : state.devices) push_links(state, slot.wrenches);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bubblesim/world.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
@@ -77,6 +78,10 @@ void World::rebuild(const Scene& scene) {
   ContactFilter filter = std::move(state_->contacts.filter);
   const std::uint64_t revision = state_->revision + 1;
   build(scene, state_->seed);
+  const auto is_left_over = [&](const DeviceSlot& slot) {  // of a model that is not of the scene
+    return slot.model != kNoObject && !tree().contains(slot.model);
+  };
+  devices.erase(std::remove_if(devices.begin(), devices.end(), is_left_over), devices.end());
   state_->devices = std::move(devices);
   state_->contacts.filter = std::move(filter);
   state_->revision = revision;

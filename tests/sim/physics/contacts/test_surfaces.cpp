@@ -140,6 +140,66 @@ TEST(Slip, LetsThingsSlideAtASpeedByTheForce) {
   EXPECT_NEAR(world.velocity(world.tree().find("/Thing")).linear.norm(), 0.2 * 9.81 * std::sin(0.1), 0.01);
 }
 
+class Belt : public testing::TestWithParam<Solver> {
+ protected:
+  static World built(const std::vector<ModelDescription>& models) {
+    SceneDescription described = scene(models);
+    described.solver = GetParam();
+    return World(described, 0);
+  }
+};
+
+/// A box with corners, which does not turn.
+ModelDescription crate(const Vector3& size, double mu, const Pose& pose) {
+  ModelDescription made = model("Crate", link_with(Box{size}, mu), pose);
+  made.links[0].inertia_diagonal = Vector3(10, 10, 10);
+  return made;
+}
+
+TEST_P(Belt, CarriesWhatLiesOnIt) {
+  World world = built({still(model("Belt", link_with(Box{{20, 2, 0.2}}), at(0, 0, -0.1))),
+                       crate({0.3, 0.3, 0.3}, 0.2, at(0, 0, 0.15))});
+  world.advance(0.2, kStep);
+  world.properties().set_belt(world.tree().find("/Belt/link"), Vector3::UnitY(), 0.8);
+  world.advance(0.2, kStep);
+  const ObjectId crate = world.tree().find("/Crate");
+  EXPECT_NEAR(world.velocity(crate).linear.x(), 0.2 * 9.81 * 0.2, 0.03) << "mu g t";
+  world.advance(1, kStep);
+  EXPECT_NEAR(world.velocity(crate).linear.x(), 0.8, 1e-3);
+  world.properties().set_belt(world.tree().find("/Belt/link"), Vector3::UnitY(), 0);
+  world.advance(1, kStep);
+  EXPECT_NEAR(world.velocity(crate).linear.x(), 0, 1e-3);
+}
+
+TEST_P(Belt, DrivesItsVehicleAhead) {
+  World world = built({floor(), crate({0.5, 0.3, 0.2}, 1, Pose(0, 0, 0.1, 0, 0, M_PI / 2))});
+  const ObjectId crate = world.tree().find("/Crate");
+  world.properties().set_belt(world.tree().find("/Crate/link"), {0, 2, 0}, 0.5);
+  world.advance(2, kStep);
+  EXPECT_NEAR((world.velocity(crate).linear - Vector3(0, 0.5, 0)).norm(), 0, 2e-3) << "along its own x";
+  world.reset();
+  world.advance(1, kStep);
+  EXPECT_NEAR(world.velocity(crate).linear.norm(), 0, 1e-3);
+}
+
+TEST_P(Belt, OfAPlaneCarriesWhatLiesOnIt) {
+  World world = built({floor(), crate({0.3, 0.3, 0.3}, 0.5, at(0, 0, 0.15))});
+  world.properties().set_belt(world.tree().find("/Floor/link"), Vector3::UnitX(), 0.4);
+  world.advance(1, kStep);
+  EXPECT_NEAR(world.velocity(world.tree().find("/Crate")).linear.y(), -0.4, 1e-3) << "x axis x normal";
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, Belt, testing::Values(Solver::kBubblesim, Solver::kOde));
+
+TEST(BeltOfAWorld, NeedsALinkWithCollisionsAndAnAxis) {
+  World world(scene({floor(), model("A", link("link"))}), 0);
+  WorldProperties& properties = world.properties();
+  EXPECT_THROW(properties.set_belt(world.tree().find("/Floor"), Vector3::UnitY(), 1), WrongObject);
+  EXPECT_THROW(properties.set_belt(world.tree().find("/A/link"), Vector3::UnitY(), 1), WrongObject);
+  EXPECT_THROW(properties.set_belt(world.tree().find("/Floor/link"), Vector3::Zero(), 1), InvalidInput);
+  EXPECT_THROW(properties.set_belt(world.tree().find("/Floor/link"), Vector3::UnitY(), kInfinity), InvalidInput);
+}
+
 TEST(Torsion, BrakesASpinInPlace) {
   Surface rough;
   rough.torsion = 0.02;

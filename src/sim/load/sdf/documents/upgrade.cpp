@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "load/sdf/elements/element_kinds.hpp"
+#include "scene/text_values.hpp"
 
 namespace bubblesim {
 namespace {

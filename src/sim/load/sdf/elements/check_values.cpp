@@ -14,6 +14,7 @@
 
 #include "bubblesim/nearest_names.hpp"
 #include "load/sdf/elements/sdf_element.hpp"
+#include "scene/text_values.hpp"
 
 namespace bubblesim {
 namespace {

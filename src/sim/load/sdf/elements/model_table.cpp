@@ -95,10 +95,8 @@ const char* const kModelTable = R"TABLE(
   plugin any
     &plugin
   &sensor_kinds
-  air_pressure any ~ the sensor is not simulated
   air_speed any ~ the sensor is not simulated
   dvl any ~ the sensor is not simulated
-  logical_camera any ~ the sensor is not simulated
   rfid any ~ the sensor is not simulated
   rfidtag any ~ the sensor is not simulated
   transceiver any ~ the sensor is not simulated
@@ -257,6 +255,19 @@ const char* const kModelTable = R"TABLE(
   bubblesim:axis_convention text
   bubblesim:child_script text
 
+=script
+  loop flag true
+  delay_start number 0 0..1e9
+  auto_start flag true
+  trajectory none
+    @id integer 0
+    @type text
+    @tension number 0
+    waypoint none
+      time number 0 0..1e9 required
+      pose pose
+        &pose
+
 =model
   @name text
   @canonical_link text
@@ -275,8 +286,14 @@ const char* const kModelTable = R"TABLE(
     &joint
   plugin any
     &plugin
-  gripper any ! grippers hold objects by contacts, not by a joint
+  gripper none
     @name text
+    grasp_check none
+      detach_steps integer 40 0..1e9
+      attach_steps integer 20 0..1e9
+      min_contact_count integer 2 1..1e9
+    gripper_link text required
+    palm_link text required
   model none
     &model
   include none
@@ -284,6 +301,8 @@ const char* const kModelTable = R"TABLE(
   bubblesim:alias text
   bubblesim:axis_convention text
   bubblesim:child_script text
+  bubblesim:script none
+    &script
   bubblesim:is_object flag true
   bubblesim:object none
     &object

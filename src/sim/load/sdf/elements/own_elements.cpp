@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "load/sdf/elements/own_elements.hpp"
 
+#include "scene/text_values.hpp"
+
 namespace bubblesim {
 namespace {
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "scene/describe.hpp"
+#include "scene/text_values.hpp"
 
 namespace bubblesim {
 namespace {
@@ -98,21 +99,6 @@ Pose SdfElement::as_pose() const {
 }
 
 bool is_true(std::string_view text) { return text == "true" || text == "1"; }
-
-bool read_numbers(std::string_view text, std::vector<double>& numbers) {
-  const std::string buffer(text);
-  const auto is_space = [](char character) { return std::isspace(static_cast<unsigned char>(character)) != 0; };
-  for (const char* at = buffer.c_str();;) {
-    while (is_space(*at)) ++at;
-    if (*at == '\0') return true;
-    char* end = nullptr;
-    const double number = std::strtod(at, &end);
-    if (end == at) return false;
-    numbers.push_back(number);
-    if (*end != '\0' && !is_space(*end)) return false;
-    at = end;
-  }
-}
 
 std::string write_numbers(const std::vector<double>& numbers) {
   std::string text;

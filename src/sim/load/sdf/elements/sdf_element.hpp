@@ -65,10 +65,6 @@ class SdfElement {
 /// Whether a string is that of a set flag: true or 1.
 bool is_true(std::string_view text);
 
-/// Appends the numbers in a string, separated by spaces, with "inf" and "nan", infinite beyond the range of double.
-/// Returns false when other content follows; the numbers before it are read.
-bool read_numbers(std::string_view text, std::vector<double>& numbers);
-
 /// The numbers with as many digits as are needed to read the same numbers, separated by spaces.
 std::string write_numbers(const std::vector<double>& numbers);
 

@@ -22,6 +22,25 @@ const char* const kWorldTable = R"TABLE(
   model none
     &state_part
 
+=actor
+  @name text
+  pose pose
+    &pose
+  static flag true ~ actors are moved by their script
+  skin any ~ a person is a capsule
+  animation any ~ a person is a capsule
+    @name text
+  script none
+    &script
+  frame none
+    &frame
+  link any
+    @name text
+  joint any
+    @name text
+  plugin any
+    &plugin
+
 =sdf
   @version text
   world none
@@ -87,8 +106,8 @@ const char* const kWorldTable = R"TABLE(
     atmosphere any ~ drag and wings have their own density
     gui any ~ the window has its own views
     audio any ~ sound is not simulated
-    actor any ! actors are not simulated
-      @name text
+    actor none
+      &actor
     road any ! roads are not simulated
       @name text
     population any ! populations of models are not simulated
@@ -113,8 +132,8 @@ const char* const kWorldTable = R"TABLE(
     &model
   light none
     &light
-  actor any ! actors are not simulated
-    @name text
+  actor none
+    &actor
 )TABLE";
 
 }  // namespace bubblesim

@@ -8,10 +8,12 @@
 
 #include "load/included_places.hpp"
 #include "load/sdf/elements/own_elements.hpp"
+#include "load/sdf/models/sdf_grippers.hpp"
 #include "load/sdf/models/sdf_joints.hpp"
 #include "load/sdf/models/sdf_links.hpp"
 #include "load/sdf/models/sdf_names_and_axes.hpp"
 #include "load/sdf/models/sdf_plugins.hpp"
+#include "load/sdf/models/sdf_scripts.hpp"
 #include "load/sdf/models/sdf_tree.hpp"
 
 namespace bubblesim {
@@ -56,6 +58,9 @@ class ModelReader {
     for (const SdfElement& element : model.children("joint")) {
       if (auto joint = read_joint(element, frames, path, context_)) add_joint(std::move(*joint), inner, pose);
     }
+    for (const SdfElement& element : model.children("gripper")) {
+      description_.grippers.push_back(read_gripper(element, inner));
+    }
     for (const XmlElement& child : model.xml().children) {
       if (child.name != "model" && child.name != "include") continue;
       read_inner({&child, *model.kind().child(child.name)}, frames, inner, pose, path);
@@ -66,6 +71,11 @@ class ModelReader {
   void add(const ModelDescription& model, const std::string& inner, const Pose& pose, bool is_static) {
     for (const LinkDescription& link : model.links) add_link(link, inner, pose, is_static);
     for (const JointDescription& joint : model.joints) add_joint(joint, inner, pose);
+    for (GripperDescription gripper : model.grippers) {
+      gripper.palm = inner + gripper.palm;
+      for (std::string& finger : gripper.fingers) finger = inner + finger;
+      description_.grippers.push_back(std::move(gripper));
+    }
   }
 
  private:
@@ -170,6 +180,21 @@ std::string name_in_paths(const SdfElement& model, LoadContext& context) {
   return name;
 }
 
+/// Its waypoints are in the frame of the model's pose.
+void read_motion(const SdfElement& model, ModelDescription& description, LoadContext& context) {
+  if (!model.has("bubblesim:script")) return;
+  const SdfElement element = model.child("bubblesim:script");
+  const Pose pose = description.pose;
+  MotionScript script = read_script(
+      element, [&](const Pose& waypoint) { return pose * waypoint; }, context);
+  if (script.trajectories.empty()) {
+    context.report(element.source(), "/" + description.name, "<bubblesim:script> has no <waypoint>");
+    return;
+  }
+  description.pose = script.trajectories.front().waypoints.front().pose;
+  if (element.flag("auto_start")) description.script = std::move(script);
+}
+
 }  // namespace
 
 ModelDescription read_model(const SdfElement& model, const Frames& frames, const Pose& pose, LoadContext& context) {
@@ -193,6 +218,7 @@ ModelDescription read_model(const SdfElement& model, const Frames& frames, const
   if (!is_robot(model)) {
     ModelReader(description, context).read(model, frames, "", Pose(), path);
     add_flattened_models(frames, description);
+    read_motion(model, description, context);
     description.is_object = model.flag("bubblesim:is_object");
     description.frames = read_objects(model, path, context);
     if (!description.is_object) give_to_top(description);

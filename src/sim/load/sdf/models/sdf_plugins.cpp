@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "scene/text_values.hpp"
+
 namespace bubblesim {
 namespace {
 

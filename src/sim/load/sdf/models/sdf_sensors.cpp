@@ -27,12 +27,10 @@ std::vector<std::string> simulated_types() {
 }
 
 bool is_left_out(const std::string& type) {
-  static const std::set<std::string> types = {"air_pressure",
-                                              "air_speed",
+  static const std::set<std::string> types = {"air_speed",
                                               "boundingbox_camera",
                                               "custom",
                                               "dvl",
-                                              "logical_camera",
                                               "multicamera",
                                               "rfid",
                                               "rfidtag",

@@ -8,6 +8,7 @@
 
 #include "bubblesim/nearest_names.hpp"
 #include "load/sdf/elements/own_elements.hpp"
+#include "scene/text_values.hpp"
 
 namespace bubblesim {
 namespace {

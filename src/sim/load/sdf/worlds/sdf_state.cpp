@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <map>
 
+#include "scene/text_values.hpp"
+
 namespace bubblesim {
 namespace {
 

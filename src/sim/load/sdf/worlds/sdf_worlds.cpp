@@ -19,6 +19,7 @@
 #include "load/sdf/models/sdf_plugins.hpp"
 #include "load/sdf/models/sdf_tree.hpp"
 #include "load/sdf/models/sdf_visuals.hpp"
+#include "load/sdf/worlds/sdf_actors.hpp"
 #include "load/sdf/worlds/sdf_randomize.hpp"
 #include "load/sdf/worlds/sdf_state.hpp"
 #include "load/substeps.hpp"
@@ -146,6 +147,7 @@ std::optional<double> read_world(const SdfElement& world, SceneDescription& scen
   const Frames frames(world, "", context);
   read_environment(world, frames, scene.environment, context);
   read_models(world, frames, scene, context);
+  for (const SdfElement& actor : world.children("actor")) scene.models.push_back(read_actor(actor, context));
   scene.frames = read_objects(world, "", context);
   separate_included_places(scene);
   scene.collections = read_collections(world, context);
