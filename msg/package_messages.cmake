@@ -20,6 +20,7 @@ function(_add_package_messages)
   find_package(gencpp REQUIRED)
   set(headers ${CATKIN_DEVEL_PREFIX}/include/${PROJECT_NAME})
   set(modules ${CATKIN_DEVEL_PREFIX}/${PYTHON_INSTALL_DIR}/${PROJECT_NAME})
+  file(MAKE_DIRECTORY ${headers} ${modules})  # catkin_package() wants them before they are filled
   set(definitions ${${PROJECT_NAME}_MESSAGE_FILES} ${${PROJECT_NAME}_SERVICE_FILES})
   set(generated "")
   foreach(definition IN LISTS definitions)
