@@ -91,7 +91,9 @@ def environment(tmp_path: Path) -> Iterator[tuple[RosCore, dict[str, str]]]:
         yield core, with_packages(core.env, ROBOTS, tmp_path / "packages", **options)
 
 
-def test_a_jackal_drives_through_a_world_of_barn(tmp_path: Path, environment: tuple[RosCore, dict[str, str]]) -> None:
+def test_a_jackal_drives_through_a_world_of_barn(
+    tmp_path: Path, environment: tuple[RosCore, dict[str, str]], request: pytest.FixtureRequest
+) -> None:
     core, env = environment
     simulation = write(tmp_path / "simulation.launch", SIMULATION)
     navigation = write(tmp_path / "navigation.launch", NAVIGATION)
@@ -122,7 +124,9 @@ def test_a_jackal_drives_through_a_world_of_barn(tmp_path: Path, environment: tu
             wait_until(is_there, lambda: f"the goal: {path[-1]}", TIMEOUT)
             took = simulated(call) - begin
             assert took < TIMEOUT
-            assert (cpu_seconds(pid) - before) / took < SHARE, "of a core, at 20 Hz"
+            share = (cpu_seconds(pid) - before) / took
+            # A core that other programs keep busy needs up to twice the time for the same work.
+            assert share < (SHARE if request.config.getoption("--long") else 2 * SHARE), "of a core, at 20 Hz"
             nearest = min(math.dist(place, (x, y)) - radius for place in path for x, y, radius in cylinders(0))
             assert nearest > HALF_WIDTH
 
