@@ -236,7 +236,6 @@ def test_extensions_of_urdf_are_repaired(load: Load) -> None:
     [
         (model("<kinematic>true</kinematic>"), "kinematic"),
         (model("<projector name='p'><texture>t.png</texture></projector>"), "projector"),
-        (model("", "<gripper name='g'><gripper_link>l</gripper_link></gripper>"), "gripper"),
         (model("<battery name='b'><voltage>12</voltage></battery>"), "battery"),
     ],
 )
