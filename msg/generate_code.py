@@ -12,7 +12,7 @@ from genmsg.template_tools import generate_from_file
 from genpy.generate_initpy import write_modules
 from genpy.generator import Generator, MsgGenerator, SrvGenerator
 
-_HEADERS = {"msg": {"msg.h.template": "@NAME@.h"}, "srv": {"srv.h.template": "@NAME@.h"}}
+_HEADERS = ({"msg.h.template": "@NAME@.h"}, {"srv.h.template": "@NAME@.h"})  # by template, for messages and services
 _MODULES: dict[str, type[Generator]] = {"msg": MsgGenerator, "srv": SrvGenerator}
 
 
@@ -37,9 +37,7 @@ def main() -> int:
 def _write_headers(options: argparse.Namespace) -> None:
     places = [f"{package}:{folder}" for package, folder in options.folder]
     for definition in options.definitions:
-        generate_from_file(
-            str(definition), options.package, str(options.headers), options.templates, places, *_HEADERS.values()
-        )
+        generate_from_file(str(definition), options.package, str(options.headers), options.templates, places, *_HEADERS)
 
 
 def _write_modules(options: argparse.Namespace) -> int:

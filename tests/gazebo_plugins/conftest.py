@@ -39,3 +39,10 @@ def run(shared_core: RosCore, tmp_path_factory: pytest.TempPathFactory) -> Itera
             return Run(shared_core, node, ends.enter_context(Peer(shared_core, folder / "received")))
 
         yield begin
+
+
+@pytest.fixture
+def peer(running: Run) -> Peer:
+    """The peer of the scene of a file, with all models at their starts."""
+    running.peer.call("/gazebo/reset_world")
+    return running.peer

@@ -129,13 +129,6 @@ def running(run: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory) -
     return run(file, "--speed", "4", "--gazebo-compat")
 
 
-@pytest.fixture
-def peer(running: Any) -> Peer:
-    peer: Peer = running.peer
-    peer.call("/gazebo/reset_world")
-    return peer
-
-
 def test_a_skid_steer_drive_drives_and_turns(peer: Peer) -> None:
     peer.drive("/skid/cmd_vel", 0.5, 0.0)
     odom = moving(peer, "/skid/odom", "x", 0.45)

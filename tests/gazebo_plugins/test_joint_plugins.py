@@ -46,13 +46,6 @@ def running(run: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory) -
     return run(file, "--speed", "4", "--gazebo-compat")
 
 
-@pytest.fixture
-def peer(running: Any) -> Peer:
-    peer: Peer = running.peer
-    peer.call("/gazebo/reset_world")
-    return peer
-
-
 def test_gz_sims_joints_follow_their_commands(peer: Peer) -> None:
     def arm(position: float, speed: float) -> None:
         def there(state: Message) -> bool:

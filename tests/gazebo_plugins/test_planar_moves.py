@@ -28,13 +28,6 @@ def running(run: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory) -
     return run(file, "--speed", "4", "--gazebo-compat")
 
 
-@pytest.fixture
-def peer(running: Any) -> Peer:
-    peer: Peer = running.peer
-    peer.call("/gazebo/reset_world")
-    return peer
-
-
 def test_a_planar_move_goes_in_all_directions_against_friction(peer: Peer) -> None:
     peer.publish("/sledge/cmd_vel", "geometry_msgs/Twist", {"linear": {"x": 0.3, "y": 0.2}, "angular": {"z": 0.5}})
     twist = moving(peer, "/sledge/odom", "yaw", 0.45)["twist"]["twist"]

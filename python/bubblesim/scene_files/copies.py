@@ -40,7 +40,7 @@ def copy_scene(scene: Path, folder: Path, name: str, edited: Mapping[Path, str])
         raise ValueError(f"{scene.name} cannot be copied: two of its child scripts have the same name")
     for script in edited.keys() - scripts:
         raise ValueError(f"{script.name} is the script of a model, which the copy would share: copy the model's folder")
-    contents = {script.name: edited.get(script, script.read_text(encoding="utf-8")) for script in scripts}
+    contents = {each.name: edited[each] if each in edited else each.read_text(encoding="utf-8") for each in scripts}
     if contents:
         (folder / name).mkdir()
     for script_name, content in contents.items():
