@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from experiments import friction, geodesy, rotation, vehicles
+from experiments import friction, geodesy, mechanisms, rotation, vehicles
 from experiments.mechanics import complete_elliptic_integral, crossings, runge_kutta
 
 
@@ -67,3 +67,29 @@ def test_local_coordinates_near_the_origin_follow_the_radii_of_curvature() -> No
     x, y, z = geodesy.to_local(origin[0] + 1e-5, origin[1] + 2e-5, 301.0, origin)
     assert (x, y) == pytest.approx((math.radians(2e-5) * east, math.radians(1e-5) * north), rel=1e-5)
     assert z == pytest.approx(1.0, abs=1e-6)
+
+
+def test_pads_bear_pure_torsion_and_pure_weight() -> None:
+    assert friction.pads_theory(1.0) == pytest.approx(0, abs=1e-3)
+    assert 1e-3 * friction.pads_theory(1e-3) == pytest.approx(friction.PAD / math.sqrt(2), rel=1e-3)
+
+
+def test_casters_follow_the_tractrix_by_integration() -> None:
+    def rate(angle: np.ndarray) -> np.ndarray:
+        return -np.sin(angle) / mechanisms.TRAIL
+
+    way = mechanisms.caster_theory(0.001)
+    (angle,) = runge_kutta(rate, np.array([mechanisms.START]), way / 1000, 1000)[-1]
+    assert angle == pytest.approx(math.pi / 2, abs=1e-9)
+
+
+@pytest.mark.parametrize("angle", [0.3, 2.0, 4.5])
+def test_bars_of_closed_loops_keep_their_length(angle: float) -> None:
+    pin = mechanisms.CRANK * np.array([math.cos(angle), math.sin(angle)])
+    wrist = np.array([mechanisms.piston(angle) + mechanisms.CRANK + mechanisms.ROD, 0])
+    assert np.linalg.norm(wrist - pin) == pytest.approx(mechanisms.ROD)
+    crank, coupler, rocker, ground = mechanisms.SIDES
+    turn = mechanisms.rocker(angle)
+    end = np.array([ground + rocker * math.cos(turn), rocker * math.sin(turn)])
+    pin = crank * np.array([math.cos(angle), math.sin(angle)])
+    assert np.linalg.norm(end - pin) == pytest.approx(coupler)

@@ -41,6 +41,7 @@ class Experiment:
     tolerance: Tolerance
     cases: tuple[Parameters, ...] = ({},)
     peers: tuple[str, ...] = ("MuJoCo", "PyBullet")
+    ode: bool = True  # whether it has to agree with ODE's solver, too
     long: bool = False
 
 

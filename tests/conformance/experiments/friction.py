@@ -120,6 +120,44 @@ def jaws(engine: Any, load: float, mu: float) -> float:
     return float(1 - world.position("held")[2])
 
 
+PAD = 0.04  # m, side of a square pad
+
+
+def pads_theory(load: float) -> float:
+    """The least over all points c of c + sum |p - c| / (4 load): the bar would turn about c (the upper bound theorem).
+
+    Two square pads, each pressed by F, bear with their corners p. `load` is W / (2 mu F); a weight W at the distance d
+    turns the bar about c once W (d - c) is 2 mu F times the mean distance of the corners from c.
+    """
+    places = np.linspace(-2, PAD / 3, 200001)
+    corners = [(x, z) for x in (-PAD / 2, PAD / 2) for z in (-PAD / 2, PAD / 2)]
+    distances = np.mean([np.hypot(x - places, z) for x, z in corners], axis=0)
+    return float(np.min(places + distances / load))
+
+
+def pads(engine: Any, load: float) -> float:
+    """Return how far from its centre a bar of 1 kg can be held by two pads."""
+    force = GRAVITY / (2 * 0.8 * load)
+    size = (1.0, 0.04, 2 * PAD)
+
+    def turns(distance: float) -> bool:
+        models = [box("bar", size, (distance, 0, 1), mu=0.8)]
+        for name, side in (("left", 1.0), ("right", -1.0)):
+            place = (0.0, 0.03 * side, 0.0)
+            pad = Body(name, 2.0, box_inertia(2.0, (PAD, 0.02, PAD)), (Shape("box", (PAD, 0.02, PAD)),), place, 0.8)
+            slide = Joint(f"{name}_slide", "prismatic", "world", name, (0, -side, 0), place, "velocity", force)
+            models.append(Model(f"{name}_pad", (pad,), (slide,), (0, 0, 1)))
+        world = engine(Scene(tuple(models), ground=False))
+        for name in ("left", "right"):
+            world.set_target(f"{name}_slide", 0.1)
+        world.run(1.0)
+        lean = 2 * math.asin(min(1.0, abs(float(world.orientation("bar")[1]))))
+        return lean > math.radians(1) or float(world.position("bar")[2]) < 0.99
+
+    theory = pads_theory(load)
+    return lowest(turns, 0.3 * theory, 1.5 * theory, 0.005 * theory)
+
+
 def torsion_theory(coefficient: float, patch: float) -> float:
     """A Hertzian contact of radius a resists by 3 pi / 16 mu a N (Gazebo's model of torsional friction).
 
@@ -233,6 +271,15 @@ EXPERIMENTS = [
         product_of(shape=("sphere",), heading=(0.0, 30.0, 45.0), coefficient=(0.002, 0.01), jointed=(False, True))
         + product_of(shape=("cylinder",), heading=(0.0, 45.0), coefficient=(0.005,), jointed=(False, True)),
         peers=("MuJoCo",),
+    ),
+    Experiment(
+        "pads",
+        "Bar between two pads, greatest distance of its centre",
+        "m",
+        pads_theory,
+        pads,
+        Tolerance("bisection to 0.5 %, and half a millimetre of slip before it turns", absolute=0.0005, relative=0.01),
+        product_of(load=(0.2, 0.5, 0.9)),
     ),
     Experiment(
         "rolling_slope",

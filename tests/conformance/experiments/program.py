@@ -73,7 +73,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             failed.append(experiment.name)
             continue
         print(row_text(experiment, results[experiment.name], all_cases=options.cases), flush=True)
-        if any(result.failures for result in results[experiment.name][:2]):
+        if any(result.failures for result in results[experiment.name][: 2 if experiment.ode else 1]):
             failed.append(experiment.name)
     if options.json:
         to_json(options.json, results)

@@ -4,7 +4,9 @@
 from . import (
     fluids,
     friction,
+    impacts,
     joints,
+    mechanisms,
     metamorphic,
     motion,
     rays_and_gps,
@@ -19,12 +21,14 @@ from . import (
 
 EXPERIMENTS = [
     *motion.EXPERIMENTS,
+    *impacts.EXPERIMENTS,
     *friction.EXPERIMENTS,
     *vehicles.EXPERIMENTS,
     *supports.EXPERIMENTS,
     *stacks.EXPERIMENTS,
     *rotation.EXPERIMENTS,
     *joints.EXPERIMENTS,
+    *mechanisms.EXPERIMENTS,
     *sensors.EXPERIMENTS,
     *fluids.EXPERIMENTS,
     *rays_and_gps.EXPERIMENTS,

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .experiment import Experiment, Tolerance, lowest, product_of
-from .scene import GRAVITY, Body, Joint, Model, Scene, Shape, box_inertia, sphere_inertia, turned
+from .scene import ALONG_Y, GRAVITY, Body, Joint, Model, Scene, Shape, box, box_inertia, sphere_inertia, tilted, turned
 
 
 def cart(
@@ -179,6 +179,89 @@ def skid_steer(engine: Any, base: float, track: float) -> float:
     return float(np.mean(rates))
 
 
+def kerb_theory(shape: str, height: float) -> float:
+    """tan(a) with cos(a) = 1 - h / r: the kerb's edge alone carries a wheel that leaves the floor (statics).
+
+    At less friction, the wheel spins at both contacts. It is driven so slowly that its motion does not help it.
+    """
+    return math.tan(math.acos(1 - height))
+
+
+def kerb(engine: Any, shape: str, height: float) -> float:
+    """Return the least friction with which a driven wheel climbs a kerb, whose height is that part of the radius."""
+    radius, mass = 0.1, 5.0
+    form = Shape("sphere", (radius,)) if shape == "sphere" else Shape("cylinder", (radius, 0.04), orientation=ALONG_Y)
+    start = radius * math.sqrt(1 - (1 - height) ** 2) + 0.005  # 5 mm before the kerb
+
+    def climbs(mu: float) -> bool:
+        wheel = Body("wheel", mass, sphere_inertia(mass, radius), (form,), mu=mu)
+        bodies = (Body("along", 0.01, (1e-5,) * 3), Body("up", 0.01, (1e-5,) * 3), wheel)
+        joints = (
+            Joint("way", "prismatic", "world", "along", (1, 0, 0)),
+            Joint("height", "prismatic", "along", "up", (0, 0, 1)),
+            Joint("axle", "revolute", "up", "wheel", (0, 1, 0), motor="velocity", effort=20.0),
+        )
+        step = height * radius
+        block = box("kerb", (1.0, 1.0, step), (start + 0.5, 0, step / 2), mu=mu, static=True)
+        world = engine(Scene((Model("wheel", bodies, joints, (0, 0, radius)), block)))
+        world.set_target("axle", 0.1)
+        world.run(14.0)
+        return bool(world.position("wheel")[2] > radius + 0.9 * step)
+
+    theory = kerb_theory(shape, height)
+    return lowest(climbs, 0.5 * theory, 1.5 * theory, 0.01 * theory)
+
+
+def across_theory(driven: bool) -> float:
+    """Wheels that do not slip keep to their line: static friction takes the load, however long (Coulomb)."""
+    return 0.0
+
+
+def across(engine: Any, driven: bool) -> float:
+    """Let a cart stand, or drive 2 m, across a slope of 10 degrees; return by how far it has come down in 10 s."""
+    world = engine(Scene((cart(0.15, mu=1.0),), gravity=tilted(10, 90)))
+    world.run(0.2)
+    start = world.position("chassis")
+    for along in ("front", "rear") if driven else ():
+        for side in ("left", "right"):
+            world.set_target(f"{along}_{side}_axle", 2.0)
+    world.run(10.0)
+    return float(world.position("chassis")[1] - start[1])
+
+
+def car(radius: float, mu: float) -> Model:
+    """Return a cart whose free wheels roll on circles about one point, beside its rear axle (Ackermann)."""
+    bodies, joints = [Body("chassis", CHASSIS, box_inertia(CHASSIS, (BASE, 0.4, 0.1)))], []
+    for along, x in (("front", BASE / 2), ("rear", -BASE / 2)):
+        for side, y in (("left", 0.2), ("right", -0.2)):
+            name, place = f"{along}_{side}", (x, y, RADIUS - 0.15)
+            bodies.append(Body(name, 0.1, sphere_inertia(0.1, RADIUS), (Shape("sphere", (RADIUS,)),), place, mu))
+            turn = math.atan2(BASE / 2 + x, radius - y)
+            axis = (-math.sin(turn), math.cos(turn), 0.0)
+            joints.append(Joint(f"{name}_axle", "revolute", "chassis", name, axis, place))
+    return Model("car", tuple(bodies), tuple(joints), (0, 0, 0.15))
+
+
+def curve_theory(radius: float, mu: float) -> float:
+    """v^2 = mu g R (Coulomb), with R from the centre of the circle to the centre of mass."""
+    return math.sqrt(mu * GRAVITY * math.hypot(radius, BASE / 2))
+
+
+def curve(engine: Any, radius: float, mu: float) -> float:
+    """Push a car on a circle ever faster, by 0.1 m/s^2; return its speed when it has left the circle by 0.3 %."""
+    world = engine(Scene((car(radius, mu),)))
+    world.run(0.2)
+    centre, way = np.array([-BASE / 2, radius]), math.hypot(radius, BASE / 2)
+    while world.time < 60:
+        from_centre = world.position("chassis")[:2] - centre
+        distance = float(np.linalg.norm(from_centre))
+        if distance > 1.003 * way:
+            break
+        along = np.array([-from_centre[1], from_centre[0]]) / distance * 0.1 * (CHASSIS + 0.4)
+        world.run(0.02, {"chassis": (float(along[0]), float(along[1]), 0.0)})
+    return float(np.linalg.norm(world.velocity("chassis")[:2]))
+
+
 EXPERIMENTS = [
     Experiment(
         "stopping",
@@ -215,5 +298,32 @@ EXPERIMENTS = [
         skid_steer,
         Tolerance("wheel loads vary while turning", relative=0.15),
         ({"base": 0.5, "track": 0.4}, {"base": 0.4, "track": 0.4}, {"base": 0.3, "track": 0.4}),
+    ),
+    Experiment(
+        "kerb",
+        "Driven wheel before a kerb of 0.3 and 0.5 radii, least friction",
+        "",
+        kerb_theory,
+        kerb,
+        Tolerance("bisection to 1 %; an overlap of up to 1 mm makes the kerb lower by as much", relative=0.03),
+        product_of(shape=("sphere", "cylinder"), height=(0.3, 0.5)),
+    ),
+    Experiment(
+        "across",
+        "Cart across a slope of 10 degrees, way down in 10 s",
+        "m",
+        across_theory,
+        across,
+        Tolerance("a quarter of a percent of the way", absolute=0.005),
+        product_of(driven=(False, True)),
+    ),
+    Experiment(
+        "curve",
+        "Car on a circle, speed at which it slides off",
+        "m/s",
+        curve_theory,
+        curve,
+        Tolerance("its speed grows by 2 % until it has left the circle", relative=0.03),
+        ({"radius": 2.0, "mu": 0.5}, {"radius": 4.0, "mu": 0.3}),
     ),
 ]

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 
 #include "physics/ode/constraint_defaults.hpp"
@@ -80,6 +81,7 @@ void ContactSolver::clear() {
   island_.pairs.clear();
   island_.points.clear();
   island_.spins.clear();
+  impacts_.clear();
 }
 
 int ContactSolver::number_of(const Link& link, const Vector3& gravity, double step) {
@@ -184,6 +186,8 @@ void ContactSolver::add_point(const FoundContact& found, std::size_t index, cons
       return n.dot(to_vector(dBodyGetLinearVel(body.body)) + turning);
     };
     const double incoming = now(body_b, lever_b) - now(body_a, lever_a);
+    const auto number = static_cast<int>(island_.points.size()) - 1;
+    impacts_.add({number, -incoming, surface.bounce, surface.bounce_vel, motion, point.target});
     if (incoming > surface.bounce_vel) point.target = std::max(point.target, surface.bounce * incoming + motion);
   }
   const Vector3 force = n * start.normal + start.friction;
@@ -221,6 +225,44 @@ void ContactSolver::give(const SolvedPair& pair, const SpatialVector& given) {
   b.velocity -= impulse * b.inverse_mass;
   a.spin += a.inverse_inertia * (moment + pair.lever_a.cross(impulse));
   b.spin -= b.inverse_inertia * (moment + pair.lever_b.cross(impulse));
+}
+
+double ContactSolver::effect(const SolvedPair& pair, const SolvedPoint& point, const SolvedPair& other_pair,
+                             const SolvedPoint& other) const {
+  const auto moment = [](const SolvedPoint& at, const Vector3& lever) -> Vector3 {
+    return Vector3(at.normal.along.tail<3>()) + lever.cross(Vector3(at.normal.along.head<3>()));
+  };
+  const double along = point.normal.along.head<3>().dot(other.normal.along.head<3>());
+  const auto through = [&](int number, const Vector3& lever, const Vector3& other_lever) {
+    const SolvedBody& body = island_.bodies[static_cast<std::size_t>(number)];
+    return body.inverse_mass * along + moment(point, lever).dot(body.inverse_inertia * moment(other, other_lever));
+  };
+  double sum = 0;
+  if (pair.a == other_pair.a) sum += through(pair.a, pair.lever_a, other_pair.lever_a);
+  if (pair.b == other_pair.b) sum += through(pair.b, pair.lever_b, other_pair.lever_b);
+  if (pair.a == other_pair.b) sum -= through(pair.a, pair.lever_a, other_pair.lever_b);
+  if (pair.b == other_pair.a) sum -= through(pair.b, pair.lever_b, other_pair.lever_a);
+  return sum;
+}
+
+void ContactSolver::pass_impacts_on() {
+  const auto pair_of = [&](int point) -> const SolvedPair& {
+    const auto after = std::upper_bound(island_.pairs.begin(), island_.pairs.end(), static_cast<std::size_t>(point),
+                                        [](std::size_t at, const SolvedPair& pair) { return at < pair.begin; });
+    return *std::prev(after);
+  };
+  const auto point_at = [&](int number) -> SolvedPoint& { return island_.points[static_cast<std::size_t>(number)]; };
+  const bool travels =
+      impacts_.run([&](int a, int b) { return effect(pair_of(a), point_at(a), pair_of(b), point_at(b)); });
+  if (!travels) return;
+  for (const Impact& impact : impacts_.impacts()) {
+    if (impact.impulse == 0) continue;
+    SolvedPoint& point = point_at(impact.contact);
+    point.target = impact.target();
+    PairMotion pushed;
+    pushed.apply(point.normal, impact.impulse);
+    give(pair_of(impact.contact), pushed.given);
+  }
 }
 
 ContactSolver::Change ContactSolver::sweep() {
@@ -291,6 +333,7 @@ void ContactSolver::push(const SolvedPair& pair, const SpatialVector& given, dou
 }
 
 void ContactSolver::solve(std::vector<FoundContact>& points, double step) {
+  pass_impacts_on();
   // In their order at equal heights; a stable sort would allocate memory.
   std::sort(island_.pairs.begin(), island_.pairs.end(), [](const SolvedPair& a, const SolvedPair& b) {
     return std::tie(a.height, a.begin, a.end) < std::tie(b.height, b.begin, b.end);

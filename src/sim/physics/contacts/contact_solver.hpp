@@ -11,6 +11,7 @@
 #include "physics/contacts/found_contacts.hpp"
 #include "physics/contacts/solved_island.hpp"
 #include "physics/contacts/stack_solver.hpp"
+#include "physics/solver/impact_chain.hpp"
 
 namespace bubblesim {
 
@@ -38,6 +39,12 @@ class ContactSolver {
   };
 
   void add_body(const Link& link, const Vector3& gravity, double step);
+  /// By how much an impulse along the normal of the other point raises the separation of a point, 1/kg.
+  double effect(const SolvedPair& pair, const SolvedPoint& point, const SolvedPair& other_pair,
+                const SolvedPoint& other) const;
+  /// Starts from the impulses of impacts that travel through several bodies. The pairs are in the order of their
+  /// points.
+  void pass_impacts_on();
   /// Solves each point once.
   Change sweep();
   /// Solves a stack at once. Returns false if it is none, or its contacts do not stay as they are.
@@ -58,6 +65,7 @@ class ContactSolver {
 
   std::vector<int> numbers_;  // of bodies, by Link::number; 0: not in the island
   SolvedIsland island_;
+  ImpactChain impacts_;
   StackSolver stack_solver_;
 };
 

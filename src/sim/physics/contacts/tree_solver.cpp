@@ -162,6 +162,7 @@ void TreeSolver::add_point(const TreeBody& a, const TreeBody& b, const FoundPair
   if ((surface.mode & dContactBounce) != 0) {
     const dReal* at = found.contact.geom.pos;
     const double incoming = n.dot(velocity_at(*pair.second->link, at) - velocity_at(*pair.first->link, at));
+    rows_.add_impact({rows_.count(), -incoming, surface.bounce, surface.bounce_vel, motion, target});
     if (incoming > surface.bounce_vel) target = std::max(target, surface.bounce * incoming + motion);
   }
   // A rigid contact yields only to what it did not bear before: a robot does not sink.

@@ -21,6 +21,7 @@ void ConstraintRows::clear() {
   rows_.clear();
   actions_.clear();
   used_ = 0;
+  impacts_.clear();
   problem_.blocks.clear();
 }
 
@@ -154,6 +155,15 @@ void ConstraintRows::leave_out(int row) {
   problem_.b[row] = problem_.x[row] = 0;
 }
 
+void ConstraintRows::pass_impacts_on() {
+  if (!impacts_.run([&](int a, int b) { return problem_.a(a, b); })) return;
+  for (const Impact& impact : impacts_.impacts()) {
+    if (impact.impulse == 0) continue;
+    problem_.b[impact.contact] += impact.target() - rows_[at(impact.contact)].target;
+    problem_.x[impact.contact] += impact.impulse;
+  }
+}
+
 ConeResult ConstraintRows::solve() {
   const int n = count();
   if (n == 0) return {};
@@ -171,6 +181,7 @@ ConeResult ConstraintRows::solve() {
     problem_.a(c, c) += std::max(rows_[at(c)].softness, rows_[at(c)].singular * problem_.a(c, c));
     for (int r = c + 1; r < n; ++r) problem_.a(c, r) = problem_.a(r, c);
   }
+  pass_impacts_on();
   const ConeResult result = solver_.solve(problem_);
   for (std::size_t i = 0; i < used_; ++i) apply(trees_[i]);
   return result;

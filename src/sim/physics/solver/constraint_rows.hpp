@@ -9,6 +9,7 @@
 #include "bubblesim/math.hpp"
 #include "physics/solver/columns.hpp"
 #include "physics/solver/cone_problem.hpp"
+#include "physics/solver/impact_chain.hpp"
 #include "physics/solver/tree.hpp"
 
 namespace bubblesim {
@@ -35,6 +36,8 @@ class ConstraintRows {
   /// Marks a row of a contact: other rows may hold the same bodies.
   void set_of_contact(int row);
   void bound(const ConeBlock& block) { problem_.blocks.push_back(block); }
+  /// Lets a contact bounce; its `contact` is the row of its normal, whose target is that of this impact alone.
+  void add_impact(const Impact& impact) { impacts_.add(impact); }
 
   /// Lets a row keep two parts together: `error`, m or rad, is how far apart they are along it.
   void hold(int row, double error, double step);
@@ -68,6 +71,8 @@ class ConstraintRows {
   };
 
   void gather(RowsOfTree& own);
+  /// Starts from the impulses of impacts that travel through several bodies.
+  void pass_impacts_on();
   void leave_out(int row);
   void apply(const RowsOfTree& own);
   /// Adds a force and a torque to the last row.
@@ -81,6 +86,7 @@ class ConstraintRows {
   std::vector<Action> actions_;    // of forces and torques
   std::vector<RowsOfTree> trees_;  // the first `used_` of them; the others keep their memory
   std::size_t used_ = 0;
+  ImpactChain impacts_;
   ConeProblem problem_;
   ConeSolver solver_;
   Columns square_;
