@@ -85,8 +85,8 @@ int ConstraintRows::add_dof(Tree& tree, int dof) {
 
 void ConstraintRows::set_of_contact(int row) { rows_[at(row)].singular = kOfContacts; }
 
-void ConstraintRows::hold(int row, double error, double step) {
-  set(row, -kErrorReduction * error / step, kConstraintSoftness / step, 0);
+void ConstraintRows::hold(int row, double error, double step, double drift) {
+  set(row, -(kErrorReduction * error + drift) / step, kConstraintSoftness / step, 0);
   ConeBlock block;
   block.row = row;
   bound(block);

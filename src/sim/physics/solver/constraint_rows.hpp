@@ -39,8 +39,9 @@ class ConstraintRows {
   /// Lets a contact bounce; its `contact` is the row of its normal, whose target is that of this impact alone.
   void add_impact(const Impact& impact) { impacts_.add(impact); }
 
-  /// Lets a row keep two parts together: `error`, m or rad, is how far apart they are along it.
-  void hold(int row, double error, double step);
+  /// Lets a row keep two parts together: `error`, m or rad, is how far apart they are along it; `drift` how much
+  /// further a substep would take them although their velocities agree.
+  void hold(int row, double error, double step, double drift = 0);
 
   /// Finds the impulses and changes the rates of the trees, which are factored.
   ConeResult solve();

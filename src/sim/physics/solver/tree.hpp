@@ -79,6 +79,8 @@ class Tree {
     const Body& body = bodies_[index(link)];
     return {body.velocity.at(body.centre), body.velocity.turn};
   }
+  /// Of a point of the world that moves with a link, while the rates are constant, m/s^2. After push().
+  Vector3 acceleration(int link, const Vector3& point) const;
   const Vector3& origin() const { return origin_; }
   /// Adds to the degrees of freedom that move a link, from `forces` of all, what a force and its moment about the
   /// origin do along them.

@@ -126,6 +126,12 @@ void Tree::push(double step, const std::vector<Wrench>& wrenches, const Eigen::V
   rates_ += change_;
 }
 
+Vector3 Tree::acceleration(int link, const Vector3& point) const {
+  const Body& body = bodies_[index(link)];
+  const Vector3 from_origin = point - origin_;
+  return body.acceleration.at(from_origin) + body.velocity.turn.cross(body.velocity.at(from_origin));
+}
+
 double Tree::kinetic_energy() const {
   double sum = 0;
   for (int i = 0; i < links(); ++i) {
