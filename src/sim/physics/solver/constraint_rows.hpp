@@ -39,7 +39,7 @@ class ConstraintRows {
   /// Lets a row keep two parts together: `error`, m or rad, is how far apart they are along it.
   void hold(int row, double error, double step);
 
-  /// Finds the impulses and changes the rates of the trees, which are factored.
+  /// Finds the impulses and changes the rates of the trees, which are weighed.
   ConeResult solve();
   double impulse(int row) const { return problem_.x[row]; }
   /// Adds the impulses of forces and torques, which act between links or on the world, to the momenta of a tree's
