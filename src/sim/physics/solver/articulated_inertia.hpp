@@ -33,7 +33,7 @@ struct LinkDofs {
 };
 
 /// Computes what the degrees of freedom pass on and their inertias from their directions, and changes the inertias from
-/// those of single links to articulated ones, as the parents feel them. `added`: kg or kg m^2, by degree of freedom.
+/// those of single links to articulated ones, as they act on the parents. `added`: kg or kg m^2, by degree of freedom.
 void eliminate(const LinkDofs* links, int count, const double* added, ArticulatedInertia* inertias, TreeDof* dofs);
 
 }  // namespace bubblesim
