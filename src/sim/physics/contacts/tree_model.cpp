@@ -66,7 +66,10 @@ TreeBody TreeModel::body_named(const std::string& name) {
   return {};
 }
 
-TreeBody TreeModel::body(const Link& link) { return body_of(link.object); }
+TreeBody TreeModel::body(const Link& link) {
+  const int place = link.number - model_.links.front().number;
+  return {&tree_, numbers_[static_cast<std::size_t>(place)]};
+}
 
 TreeModel::TreeModel(const PlacedModel& model) : model_(model), numbers_(model.links.size(), -1) {
   std::vector<bool> used(model.joints.size(), false);
@@ -101,9 +104,9 @@ TreeModel::TreeModel(const PlacedModel& model) : model_(model), numbers_(model.l
     TreeLink link;
     link.motion = TreeMotion::kFree;
     numbers_[root] = tree_.add(link);
-    places_.push_back(root);
+    parts_.push_back(&model.links[root]);
   }
-  for (std::size_t i = 0; i < places_.size(); ++i) take_inertia(i);
+  for (std::size_t i = 0; i < parts_.size(); ++i) take_inertia(i);
   note_what_swings();
   keeps_momenta_ =
       std::any_of(model.joints.begin(), model.joints.end(), [](const auto& joint) { return joint.meter != nullptr; });
@@ -128,7 +131,7 @@ void TreeModel::add_link(std::size_t number, int parent) {
   link.in_parent = joint.parent == kNoObject ? joint.in_parent : in_body(link_of(joint.parent), joint.in_parent);
   link.in_child = in_body(model_.links[place], joint.in_child);
   numbers_[place] = tree_.add(link);
-  places_.push_back(place);
+  parts_.push_back(&model_.links[place]);
   tree_joints_.push_back({number, numbers_[place]});
   for (int k = 0; k < joint.joint->axis_count(); ++k) {
     axes_.push_back({number, k, tree_.first_dof(numbers_[place]) + k, {}});
@@ -155,20 +158,20 @@ bool TreeModel::knows_parts() const {
 }
 
 void TreeModel::take_inertia(std::size_t number) {
-  const Link& link = model_.links[places_[number]];
+  const Link& link = *parts_[number];
   tree_.set_inertia(static_cast<int>(number), link.mass, inertia_of(link.body.get()));
 }
 
 void TreeModel::note_what_swings() {
-  std::vector<bool> swings(places_.size(), false);
+  std::vector<bool> swings(parts_.size(), false);
   for (int i = 0; i < tree_.links(); ++i) {
     if (tree_.dof_count(i) > 1) swings[static_cast<std::size_t>(i)] = true;
     if (tree_.parent(i) >= 0) swings[static_cast<std::size_t>(tree_.parent(i))] = true;
   }
-  for (std::size_t i = 0; i < places_.size(); ++i) {
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
     if (swings[i]) swinging_.push_back(static_cast<int>(i));
   }
-  std::vector<int> in_series(places_.size(), 0);
+  std::vector<int> in_series(parts_.size(), 0);
   int most = 1;
   for (int i = 0; i < tree_.links(); ++i) {
     const int before = tree_.parent(i) < 0 ? 0 : in_series[static_cast<std::size_t>(tree_.parent(i))];
@@ -185,7 +188,7 @@ bool TreeModel::any_turns_too_far(double step, const RateOf& rate_of) const {
 
 bool TreeModel::turns_too_far(double step) const {
   return any_turns_too_far(step, [&](int link) {
-    return to_vector(dBodyGetAngularVel(model_.links[places_[static_cast<std::size_t>(link)]].body.get()));
+    return to_vector(dBodyGetAngularVel(parts_[static_cast<std::size_t>(link)]->body.get()));
   });
 }
 
@@ -196,18 +199,17 @@ bool TreeModel::would_turn_too_far(double step) {
 }
 
 void TreeModel::begin(const Vector3& gravity, double step) {
-  const std::size_t count = places_.size();
+  const std::size_t count = parts_.size();
   poses_.resize(count);
   velocities_.resize(count);
   wrenches_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    dBodyID body = model_.links[places_[i]].body.get();
+    dBodyID body = parts_[i]->body.get();
     poses_[i] = body_pose(body);
     velocities_[i] = body_velocity(body);
-    if (tree_.mass(static_cast<int>(i)) != model_.links[places_[i]].mass) take_inertia(i);
+    if (tree_.mass(static_cast<int>(i)) != parts_[i]->mass) take_inertia(i);
   }
   tree_.read(poses_, velocities_);
-  tree_.set_velocities(tree_.rates());
   forces_.setZero(tree_.dofs());
   added_.setZero(tree_.dofs());
   for (Axis& axis : axes_) {
@@ -219,25 +221,21 @@ void TreeModel::begin(const Vector3& gravity, double step) {
     added_[axis.dof] = step * coefficient;
     forces_[axis.dof] = coefficient * (damper->velocity - tree_.rates()[axis.dof]);
   }
-  tree_.factor(added_);
+  tree_.weigh(added_);
   loose_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const Link& link = model_.links[places_[i]];
+    const Link& link = *parts_[i];
     dBodyID body = link.body.get();
     Wrench& wrench = wrenches_[i];
     wrench = {to_vector(dBodyGetForce(body)), to_vector(dBodyGetTorque(body))};
     if (dBodyGetGravityMode(body) != 0) wrench.force += gravity * link.mass;
-    const Matrix3& inertia = tree_.inertia(static_cast<int>(i));
-    if (keeps_momenta_) {
-      const Vector3 linear = velocities_[i].linear * link.mass + wrench.force * step;
-      const Vector3 turning = inertia * velocities_[i].angular + wrench.torque * step;
-      loose_[i] = {linear, turning + (poses_[i].position - tree_.origin()).cross(linear)};
-    }
-    // A velocity that the joints do not allow, such as one that was set, acts as an impulse.
-    const Twist allowed = tree_.velocity(static_cast<int>(i));
-    wrench.force += (velocities_[i].linear - allowed.linear) * (link.mass / step);
-    wrench.torque += inertia * (velocities_[i].angular - allowed.angular) / step;
+    if (!keeps_momenta_) continue;
+    loose_[i] = tree_.momentum(static_cast<int>(i), velocities_[i]);
+    loose_[i].linear += wrench.force * step;
+    loose_[i].angular += (wrench.torque + (poses_[i].position - tree_.origin()).cross(wrench.force)) * step;
   }
+  // A velocity that the joints do not allow, such as one that was set, acts as an impulse.
+  tree_.add_impulses(velocities_, step, wrenches_);
   tree_.push(step, wrenches_, forces_);
 }
 
@@ -246,14 +244,13 @@ void TreeModel::move(const ConstraintRows& rows, double step) {
   if (keeps_momenta_) rows.add_impulses(tree_, loose_);
   tree_.move(step);
   tree_.place();
-  tree_.set_velocities(tree_.rates());
   if (keeps_momenta_) keep_momenta(before);
 }
 
 /// Only what acts on a floating robot from outside changes its momentum: the efforts of its joints do not.
 void TreeModel::keep_momenta(const Vector3& origin_before) {
-  momenta_.assign(places_.size(), {});
-  for (std::size_t i = 0; i < places_.size(); ++i) {
+  momenta_.assign(parts_.size(), {});
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
     loose_[i].angular += (origin_before - tree_.origin()).cross(loose_[i].linear);
     const int root = tree_.free_root(static_cast<int>(i));
     if (root < 0) continue;
@@ -270,7 +267,7 @@ void TreeModel::report_reactions() {
     WrenchMeter* meter = model_.joints[joint.joint].meter.get();
     if (meter == nullptr) continue;
     TreeMomentum sum;
-    is_behind.assign(places_.size(), false);
+    is_behind.assign(parts_.size(), false);
     for (int i = joint.child; i < tree_.links(); ++i) {
       const int parent = tree_.parent(i);
       if (i != joint.child && (parent < 0 || !is_behind[static_cast<std::size_t>(parent)])) continue;
@@ -287,8 +284,8 @@ void TreeModel::end(const ConstraintRows& rows, double step) {
   for (const MotorRow& motor : motors_) motor.meter->add(rows.impulse(motor.row));
   move(rows, step);
   report_reactions();
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    dBodyID body = model_.links[places_[i]].body.get();
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    dBodyID body = parts_[i]->body.get();
     const Pose pose = tree_.pose(static_cast<int>(i));
     const Twist velocity = tree_.velocity(static_cast<int>(i));
     set_body_pose(body, pose);

@@ -79,10 +79,10 @@ class TreeModel {
 
   const PlacedModel& model_;
   Tree tree_;
-  std::vector<int> numbers_;         // in the tree, by link of the model
-  std::vector<std::size_t> places_;  // the reverse
-  std::vector<int> swinging_;        // links of the tree that carry others, or turn about more than one axis
-  double most_turn_ = 0;             // rad in a substep, of these links
+  std::vector<int> numbers_;        // in the tree, by link of the model
+  std::vector<const Link*> parts_;  // the reverse
+  std::vector<int> swinging_;       // links of the tree that carry others, or turn about more than one axis
+  double most_turn_ = 0;            // rad in a substep, of these links
   std::vector<Axis> axes_;
   std::vector<TreeJoint> tree_joints_;
   std::vector<std::size_t> gearboxes_;

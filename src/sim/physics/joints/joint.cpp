@@ -132,11 +132,6 @@ void Joint::set_target_effort(int axis, double effort) {
   apply_motor(set);
 }
 
-bool Joint::is_driven(int axis) const {
-  const Axis& asked = axes_[static_cast<std::size_t>(axis)];
-  return asked.motor != nullptr && (asked.description.motor != MotorMode::kNone || asked.description.mimic);
-}
-
 void Joint::set_max_force(int axis, double force) {
   Axis& set = axes_[static_cast<std::size_t>(axis)];
   set.description.max_force = force;
@@ -161,15 +156,6 @@ void Joint::drive(double step) {
   for (const int index : driven_) drive_motor(index, step);
   for (const int index : sprung_) drive_spring(index, step);
   for (const int index : stopped_) set_stops(index, step);
-}
-
-AxisForces Joint::forces(int axis) const {
-  const Axis& asked = axes_[static_cast<std::size_t>(axis)];
-  AxisForces made;
-  if (asked.motor != nullptr) made.motor = &asked.motor->force();
-  if (asked.friction != nullptr) made.friction = &asked.friction->force();
-  if (asked.damper != nullptr) made.damper = &asked.damper->force();
-  return made;
 }
 
 void Joint::drive_motor(int index, double step) {

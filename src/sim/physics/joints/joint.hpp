@@ -59,7 +59,10 @@ class Joint {
   double target_effort(int axis) const { return axes_[static_cast<std::size_t>(axis)].target_effort; }
   double motor_gain(int axis) const { return axes_[static_cast<std::size_t>(axis)].gain; }
   /// Whether the axis has a motor and a command for it.
-  bool is_driven(int axis) const;
+  bool is_driven(int axis) const {
+    const Axis& asked = axes_[static_cast<std::size_t>(axis)];
+    return asked.motor != nullptr && (asked.description.motor != MotorMode::kNone || asked.description.mimic);
+  }
   void set_motor_mode(int axis, MotorMode mode);
   void set_target_position(int axis, double position);
   void set_target_velocity(int axis, double velocity);
@@ -77,7 +80,14 @@ class Joint {
   void drive(double step);
 
   /// What drive() has set for an axis.
-  AxisForces forces(int axis) const;
+  AxisForces forces(int axis) const {
+    const Axis& asked = axes_[static_cast<std::size_t>(axis)];
+    AxisForces made;
+    if (asked.motor != nullptr) made.motor = &asked.motor->force();
+    if (asked.friction != nullptr) made.friction = &asked.friction->force();
+    if (asked.damper != nullptr) made.damper = &asked.damper->force();
+    return made;
+  }
 
   /// Of a gearbox; other joints have none.
   virtual std::optional<ShaftCoupling> coupling() const { return std::nullopt; }

@@ -34,6 +34,7 @@ double* ConstraintRows::values(Tree& tree) {
     fresh.tree = &tree;
     fresh.rows.clear();
     fresh.given.clear();
+    tree.factor();
     found = used_;
   }
   RowsOfTree& own = trees_[found - 1];
@@ -112,7 +113,7 @@ void ConstraintRows::gather(RowsOfTree& own) {
     }
     problem_.b[own.rows[at(r)]] -= velocity;
   }
-  const BranchedMatrix& mass = own.tree->mass_matrix();
+  const BranchedFactors& mass = own.tree->factors();
   mass.solve_upper(own.solved);
   square_.set_weighted_square(own.solved, mass.inverse_diagonals());
   for (int c = 0; c < rows; ++c) {
@@ -123,7 +124,7 @@ void ConstraintRows::gather(RowsOfTree& own) {
 
 /// u += L^-1 D^-1 L^-T J^T x
 void ConstraintRows::apply(const RowsOfTree& own) {
-  const BranchedMatrix& mass = own.tree->mass_matrix();
+  const BranchedFactors& mass = own.tree->factors();
   change_.resize(own.tree->dofs());
   for (int k = 0; k < own.tree->dofs(); ++k) {
     double sum = 0;

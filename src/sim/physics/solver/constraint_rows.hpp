@@ -43,7 +43,7 @@ class ConstraintRows {
   /// further a substep would take them although their velocities agree.
   void hold(int row, double error, double step, double drift = 0);
 
-  /// Finds the impulses and changes the rates of the trees, which are factored.
+  /// Finds the impulses and changes the rates of the trees, which are weighed.
   ConeResult solve();
   double impulse(int row) const { return problem_.x[row]; }
   /// Adds the impulses of forces and torques, which act between links or on the world, to the momenta of a tree's

@@ -26,11 +26,11 @@ void Directions::add() {
   for (std::vector<double>& component : components_) component.push_back(0);
 }
 
-void Directions::set(int dof, const RigidMotion& direction) {
+void Directions::set(int dof, const SpatialLanes& direction) {
   const auto at = static_cast<std::size_t>(dof);
   for (std::size_t i = 0; i < 3; ++i) {
-    components_[i][at] = direction.turn[static_cast<Eigen::Index>(i)];
-    components_[i + 3][at] = direction.slide[static_cast<Eigen::Index>(i)];
+    components_[i][at] = direction.angular[i];
+    components_[i + 3][at] = direction.linear[i];
   }
 }
 

@@ -6,28 +6,15 @@
 #include <vector>
 
 #include "bubblesim/math.hpp"
+#include "physics/solver/spatial_lanes.hpp"
 
 namespace bubblesim {
-
-/// A rigid motion: a point at r moves with `slide` + `turn` x r.
-struct RigidMotion {
-  Vector3 turn;
-  Vector3 slide;
-
-  Vector3 at(const Vector3& point) const { return slide + turn.cross(point); }
-  RigidMotion& operator+=(const RigidMotion& other) {
-    turn += other.turn;
-    slide += other.slide;
-    return *this;
-  }
-  RigidMotion operator*(double factor) const { return {turn * factor, slide * factor}; }
-};
 
 /// By components, for loops over many of them.
 class Directions {
  public:
   void add();
-  void set(int dof, const RigidMotion& direction);
+  void set(int dof, const SpatialLanes& direction);
   /// Adds what a force, and its moment about the origin, do along degrees of freedom with consecutive numbers.
   void project(const Vector3& moment, const Vector3& force, int first, int count, double* to) const;
 

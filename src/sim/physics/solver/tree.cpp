@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/solver/turns.hpp"
+#include "scene/simd.hpp"
 
 namespace bubblesim {
 namespace {
@@ -32,18 +33,25 @@ int Tree::add(const TreeLink& link) {
   const int number = links();
   Placed placed;
   placed.link = link;
-  placed.first_dof = dofs();
-  placed.dof_count = count_of(link.motion);
+  const LinkDofs own{link.parent, dofs(), count_of(link.motion), link.motion == TreeMotion::kFree,
+                     link.motion == TreeMotion::kBall};
   placed.last_dof = link.parent < 0 ? -1 : last_dof(link.parent);
   placed.free_root = link.motion == TreeMotion::kFree ? number : link.parent < 0 ? -1 : free_root(link.parent);
-  placed.axis = link.in_parent.orientation * link.axis;
-  for (int i = 0; i < placed.dof_count; ++i) {
-    placed.last_dof = mass_matrix_.add(placed.last_dof);
-    columns_.emplace_back();
+  placed.axis = lanes_of(link.in_parent.orientation * link.axis);
+  placed.in_parent = lanes_of(link.in_parent.position);
+  placed.in_child = lanes_of(link.in_child.position);
+  const Quaternion back = link.in_child.orientation.conjugate();
+  placed.straight = lanes_of(link.in_parent.orientation * back);
+  placed.turned = lanes_of(link.in_parent.orientation * turn_about(link.axis, M_PI) * back);
+  for (int i = 0; i < own.count; ++i) {
+    placed.last_dof = factors_.add(placed.last_dof);
+    dofs_.emplace_back();
     directions_.add();
   }
   rates_ = Eigen::VectorXd::Zero(dofs());
   links_.push_back(placed);
+  numbers_.push_back(own);
+  inertias_.emplace_back();
   joints_.emplace_back();
   bodies_.emplace_back();
   return number;
@@ -54,143 +62,153 @@ void Tree::set_inertia(int link, double mass, const Matrix3& inertia) {
   links_[index(link)].link.inertia = inertia;
 }
 
-Pose Tree::pose(int link) const {
-  const Body& body = bodies_[index(link)];
-  return {origin_ + body.centre, body.orientation};
-}
-
 void Tree::set_origin(const Vector3& origin) {
   origin_ = origin;
-  world_.centre = -origin;
+  world_.centre = -lanes_of(origin);
 }
 
-void Tree::read(const std::vector<Pose>& poses, const std::vector<Twist>& velocities) {
+BUBBLESIM_SIMD void Tree::read(const std::vector<Pose>& poses, const std::vector<Twist>& velocities) {
   set_origin(poses[0].position);
+  for (int i = 0; i < links(); ++i) {
+    Body& body = bodies_[index(i)];
+    body.orientation = lanes_of(poses[index(i)].orientation);
+    body.axes.set_turn(body.orientation);
+    body.centre = lanes_of(poses[index(i)].position) - lanes_of(origin_);
+    read_joint(i, velocities);
+    place_joint(i);
+  }
+  set_velocities(rates_);
+}
+
+/// Takes coordinate and rates of a joint; the links are placed.
+BUBBLESIM_INLINE void Tree::read_joint(int number, const std::vector<Twist>& velocities) {
+  const Placed& placed = links_[index(number)];
+  const TreeLink& link = placed.link;
+  TreeJointState& state = joints_[index(number)];
+  const Body& body = bodies_[index(number)];
+  const Twist& now = velocities[index(number)];
+  double* const rates = rates_.data() + first_dof(number);
+  if (link.motion == TreeMotion::kFree) {
+    state.place = origin_ + vector_of(body.centre);
+    state.turn = quaternion_of(body);
+    for (int k = 0; k < 3; ++k) rates[k] = now.angular[k];
+    for (int k = 0; k < 3; ++k) rates[k + 3] = now.linear[k];
+    return;
+  }
+  const Body& parent = parent_of(link);
+  Four spin = lanes_of(now.angular);
+  if (link.parent >= 0) spin -= lanes_of(velocities[index(link.parent)].angular);
+  const Four axis = parent.axes * placed.axis;
+  if (turns(link.motion)) {
+    const Four turn = turn_product(turn_back(parent.orientation), body.orientation);
+    state.turn = turn_of_parts(link.axis, turn_dot(placed.straight, turn), turn_dot(placed.turned, turn));
+    rates[0] = lanes_dot(axis, spin);
+  }
+  if (slides(link.motion)) {
+    const Four anchor = body.centre + body.axes * placed.in_child;
+    state.slide = lanes_dot(axis, anchor - parent.centre - parent.axes * placed.in_parent);
+  }
+  if (link.motion == TreeMotion::kSlides) {
+    const Twist carried = link.parent < 0 ? Twist() : velocities[index(link.parent)];
+    const Four at_parent = lanes_of(carried.linear) + cross(lanes_of(carried.angular), body.centre - parent.centre);
+    rates[0] = lanes_dot(axis, lanes_of(now.linear) - at_parent);
+  }
+  if (link.motion != TreeMotion::kBall && link.motion != TreeMotion::kTwoAxes) return;
+  const Quaternion joint = quaternion_of(parent) * link.in_parent.orientation;
+  const Quaternion turn = joint.conjugate() * (quaternion_of(body) * link.in_child.orientation);
+  if (link.motion == TreeMotion::kBall) {
+    state.turn = turn;
+    for (int k = 0; k < 3; ++k) rates[k] = spin[k];
+    return;
+  }
+  state.turn = turn_about(link.axis, angle_about(link.axis, link.axis2, turn * link.axis2));
+  state.turn2 = turn_about(link.axis2, -angle_about(link.axis2, link.axis, turn.conjugate() * link.axis));
+  const Four axis2 = lanes_of(joint * (state.turn * link.axis2));
+  // The part of the spin in the plane of the axes, which need not be at right angles.
+  const double mixed = lanes_dot(axis, axis2);
+  const double a = lanes_dot(axis, spin);
+  const double b = lanes_dot(axis2, spin);
+  rates[0] = (a - mixed * b) / (1 - mixed * mixed);
+  rates[1] = (b - mixed * a) / (1 - mixed * mixed);
+}
+
+BUBBLESIM_SIMD void Tree::place() {
   for (int i = 0; i < links(); ++i) {
     const Placed& placed = links_[index(i)];
     const TreeLink& link = placed.link;
-    TreeJointState& state = joints_[index(i)];
-    Body& body = bodies_[index(i)];
-    const int dof = placed.first_dof;
-    const Pose& here = poses[index(i)];
-    const Twist& now = velocities[index(i)];
-    body.orientation = here.orientation;
-    body.axes = here.orientation.toRotationMatrix();
-    body.centre = here.position - origin_;
-    if (link.motion == TreeMotion::kFree) {
-      state.place = here.position;
-      state.turn = here.orientation;
-      rates_.segment<3>(dof) = now.angular;
-      rates_.segment<3>(dof + 3) = now.linear;
-      place_joint(i);
-      continue;
-    }
-    const Body& parent = parent_of(link);
-    const Twist carried = link.parent < 0 ? Twist() : velocities[index(link.parent)];
-    const Quaternion joint = parent.orientation * link.in_parent.orientation;
-    const Quaternion turn = joint.conjugate() * (here.orientation * link.in_child.orientation);
-    const Vector3 spin = now.angular - carried.angular;
-    const Vector3 axis = parent.axes * placed.axis;
-    if (turns(link.motion)) {
-      state.turn = turn_about(link.axis, turn);
-      rates_[dof] = axis.dot(spin);
-    }
-    if (slides(link.motion)) {
-      const Vector3 anchor = body.centre + body.axes * link.in_child.position;
-      state.slide = axis.dot(anchor - parent.centre - parent.axes * link.in_parent.position);
-    }
-    if (link.motion == TreeMotion::kSlides) {
-      const Vector3 at_parent = carried.linear + carried.angular.cross(body.centre - parent.centre);
-      rates_[dof] = axis.dot(now.linear - at_parent);
-    }
-    if (link.motion == TreeMotion::kBall) {
-      state.turn = turn;
-      rates_.segment<3>(dof) = spin;
-    }
-    if (link.motion == TreeMotion::kTwoAxes) {
-      state.turn = turn_about(link.axis, angle_about(link.axis, link.axis2, turn * link.axis2));
-      state.turn2 = turn_about(link.axis2, -angle_about(link.axis2, link.axis, turn.conjugate() * link.axis));
-      const Vector3 axis2 = joint * (state.turn * link.axis2);
-      // The part of the spin in the plane of the axes, which need not be at right angles.
-      const double mixed = axis.dot(axis2);
-      const double a = axis.dot(spin);
-      const double b = axis2.dot(spin);
-      rates_[dof] = (a - mixed * b) / (1 - mixed * mixed);
-      rates_[dof + 1] = (b - mixed * a) / (1 - mixed * mixed);
-    }
-    place_joint(i);
-  }
-}
-
-void Tree::place() {
-  for (int i = 0; i < links(); ++i) {
-    const TreeLink& link = links_[index(i)].link;
     const TreeJointState& state = joints_[index(i)];
     Body& body = bodies_[index(i)];
     if (link.motion == TreeMotion::kFree) {
-      body.orientation = state.turn;
-      body.axes = body.orientation.toRotationMatrix();
+      body.orientation = lanes_of(state.turn);
+      body.axes.set_turn(body.orientation);
       if (i == 0) set_origin(state.place);
-      body.centre = state.place - origin_;
+      body.centre = lanes_of(state.place) - lanes_of(origin_);
       place_joint(i);
       continue;
     }
-    Quaternion turned = parent_of(link).orientation * link.in_parent.orientation * state.turn;
-    if (link.motion == TreeMotion::kTwoAxes) turned = turned * state.turn2;
-    body.orientation = (turned * link.in_child.orientation.conjugate()).normalized();
-    body.axes = body.orientation.toRotationMatrix();
+    Four turn;  // in the parent
+    if (turns(link.motion)) {
+      turn = placed.straight * state.turn.w() + placed.turned * link.axis.dot(state.turn.vec());
+    } else {
+      Quaternion inner = state.turn;
+      if (link.motion == TreeMotion::kTwoAxes) inner = inner * state.turn2;
+      turn = lanes_of(link.in_parent.orientation * inner * link.in_child.orientation.conjugate());
+    }
+    turn = turn_product(parent_of(link).orientation, turn);
+    body.orientation = turn * inverse_length(turn_dot(turn, turn));
+    body.axes.set_turn(body.orientation);
     if (i == 0) set_origin(Vector3());
     place_joint(i);
-    body.centre = body.anchor - body.axes * link.in_child.position;
+    body.centre = body.anchor - body.axes * placed.in_child;
     if (i > 0) continue;
-    set_origin(body.centre);
-    body.centre = Vector3();
+    set_origin(vector_of(body.centre));
+    body.centre = Four{};
     place_joint(i);
   }
+  set_velocities(rates_);
 }
 
 /// Computes anchor and directions of motion; the parent is placed, and the link of kFree.
-void Tree::place_joint(int number) {
+BUBBLESIM_INLINE void Tree::place_joint(int number) {
   const Placed& placed = links_[index(number)];
   const TreeLink& link = placed.link;
   const Body& parent = parent_of(link);
   Body& body = bodies_[index(number)];
-  int dof = placed.first_dof;
-  const auto turning = [&](const Vector3& axis) { set_column(dof++, {axis, body.anchor.cross(axis)}); };
+  TreeDof* const dof = dofs_.data() + first_dof(number);
+  const Four units[3] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
   if (link.motion == TreeMotion::kFree) {
     body.anchor = body.centre;
-    for (int k = 0; k < 3; ++k) turning(Vector3::Unit(k));
-    for (int k = 0; k < 3; ++k) set_column(dof++, {Vector3(), Vector3::Unit(k)});
+    for (int k = 0; k < 3; ++k) dof[k].direction = {units[k], cross(body.anchor, units[k])};
+    for (int k = 0; k < 3; ++k) dof[k + 3].direction = {Four{}, units[k]};
     return;
   }
-  const Vector3 axis = parent.axes * placed.axis;
-  body.anchor = parent.centre + parent.axes * link.in_parent.position;
-  if (slides(link.motion)) body.anchor += axis * joints_[index(number)].slide;
+  const Four axis = parent.axes * placed.axis;
+  Four anchor = parent.centre + parent.axes * placed.in_parent;
+  if (slides(link.motion)) anchor += axis * joints_[index(number)].slide;
+  body.anchor = anchor;
   switch (link.motion) {
     case TreeMotion::kBall:
-      for (int k = 0; k < 3; ++k) turning(Vector3::Unit(k));
+      for (int k = 0; k < 3; ++k) dof[k].direction = {units[k], cross(anchor, units[k])};
       break;
     case TreeMotion::kSlides:
-      set_column(dof, {Vector3(), axis});
+      dof->direction = {Four{}, axis};
       break;
     case TreeMotion::kScrews:
-      set_column(dof, {axis, body.anchor.cross(axis) + axis * link.lead});
+      dof->direction = {axis, cross(anchor, axis) + axis * link.lead};
       break;
-    case TreeMotion::kTwoAxes:
-      turning(axis);
-      turning(parent.axes * (link.in_parent.orientation * (joints_[index(number)].turn * link.axis2)));
+    case TreeMotion::kTwoAxes: {
+      const Four in_parent = lanes_of(link.in_parent.orientation * (joints_[index(number)].turn * link.axis2));
+      const Four axis2 = parent.axes * in_parent;
+      dof[0].direction = {axis, cross(anchor, axis)};
+      dof[1].direction = {axis2, cross(anchor, axis2)};
       break;
+    }
     case TreeMotion::kTurns:
-      turning(axis);
+      dof->direction = {axis, cross(anchor, axis)};
       break;
     default:
       break;
   }
-}
-
-void Tree::set_column(int dof, const RigidMotion& column) {
-  columns_[index(dof)] = column;
-  directions_.set(dof, column);
 }
 
 void Tree::move(double step) {
@@ -200,24 +218,24 @@ void Tree::move(double step) {
     const int dof = first_dof(i);
     switch (link.motion) {
       case TreeMotion::kFree:
-        state.turn = (turn_by(rates_.segment<3>(dof) * step) * state.turn).normalized();
+        state.turn = normalized(turn_by(rates_.segment<3>(dof) * step) * state.turn);
         state.place += rates_.segment<3>(dof + 3) * step;
         break;
       case TreeMotion::kBall: {
-        const Quaternion joint = parent_of(link).orientation * link.in_parent.orientation;
-        state.turn = (turn_by(joint.conjugate() * (rates_.segment<3>(dof) * step)) * state.turn).normalized();
+        const Quaternion joint = quaternion_of(parent_of(link)) * link.in_parent.orientation;
+        state.turn = normalized(turn_by(joint.conjugate() * (rates_.segment<3>(dof) * step)) * state.turn);
         break;
       }
       case TreeMotion::kTwoAxes:
-        state.turn = (turn_about(link.axis, rates_[dof] * step) * state.turn).normalized();
-        state.turn2 = (turn_about(link.axis2, rates_[dof + 1] * step) * state.turn2).normalized();
+        state.turn = normalized(turn_about(link.axis, rates_[dof] * step) * state.turn);
+        state.turn2 = normalized(turn_about(link.axis2, rates_[dof + 1] * step) * state.turn2);
         break;
       case TreeMotion::kSlides:
         state.slide += rates_[dof] * step;
         break;
       case TreeMotion::kTurns:
       case TreeMotion::kScrews:
-        state.turn = (turn_about(link.axis, rates_[dof] * step) * state.turn).normalized();
+        state.turn = normalized(turn_about(link.axis, rates_[dof] * step) * state.turn);
         state.slide += link.lead * rates_[dof] * step;
         break;
       case TreeMotion::kFixed:

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A tree of rigid links in generalised coordinates: topology, kinematics, mass matrix and its factors.
+// A tree of rigid links in generalised coordinates: topology, kinematics, dynamics.
 //
-// After R. Featherstone, "Rigid Body Dynamics Algorithms", 2008: composite rigid bodies (chapter 6), recursive
-// Newton-Euler (chapter 5). All vectors have world axes; moments and positions refer to the origin of the tree, the
-// first link's centre of mass.
+// After R. Featherstone, "Rigid Body Dynamics Algorithms", 2008: articulated bodies (chapter 7). All vectors have world
+// axes; moments and positions refer to the origin of the tree, the first link's centre of mass.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +11,8 @@
 
 #include "bubblesim/math.hpp"
 #include "bubblesim/wrench.hpp"
-#include "physics/solver/branched_matrix.hpp"
+#include "physics/solver/articulated_inertia.hpp"
+#include "physics/solver/branched_factors.hpp"
 #include "physics/solver/directions.hpp"
 
 namespace bubblesim {
@@ -54,58 +54,65 @@ class Tree {
   double mass(int link) const { return links_[index(link)].link.mass; }
 
   int links() const { return static_cast<int>(links_.size()); }
-  int parent(int link) const { return links_[index(link)].link.parent; }
-  int dofs() const { return static_cast<int>(columns_.size()); }
-  int first_dof(int link) const { return links_[index(link)].first_dof; }
-  int dof_count(int link) const { return links_[index(link)].dof_count; }
+  int parent(int link) const { return numbers_[index(link)].parent; }
+  int dofs() const { return static_cast<int>(dofs_.size()); }
+  int first_dof(int link) const { return numbers_[index(link)].first; }
+  int dof_count(int link) const { return numbers_[index(link)].count; }
   /// The last degree of freedom that moves a link; -1: none.
   int last_dof(int link) const { return links_[index(link)].last_dof; }
   /// The degree of freedom before another on the way to the world; -1: none.
-  int before(int dof) const { return mass_matrix_.before(dof); }
+  int before(int dof) const { return factors_.before(dof); }
 
   /// Takes places, joints and rates from poses and velocities of the centres of mass, by link. Joints and rates drop
-  /// what the joints do not allow.
+  /// what the joints do not allow. Computes the velocities from the rates.
   void read(const std::vector<Pose>& poses, const std::vector<Twist>& velocities);
   TreeJointState& joint(int link) { return joints_[index(link)]; }
   Eigen::VectorXd& rates() { return rates_; }  ///< rad/s or m/s; of kFree: angular, then linear velocity in the world
   const Eigen::VectorXd& rates() const { return rates_; }
 
-  /// Computes places from the joints.
+  /// Computes places from the joints, and the velocities from the rates.
   void place();
   /// Computes the velocities of the links from rates, at the present place.
   void set_velocities(const Eigen::VectorXd& rates);
-  Pose pose(int link) const;
+  Pose pose(int link) const {
+    const Body& body = bodies_[index(link)];
+    return {origin_ + vector_of(body.centre), quaternion_of(body)};
+  }
   Twist velocity(int link) const {
     const Body& body = bodies_[index(link)];
-    return {body.velocity.at(body.centre), body.velocity.turn};
+    return {vector_of(body.velocity.at(body.centre)), vector_of(body.velocity.angular)};
   }
   /// Of a point of the world that moves with a link, while the rates are constant, m/s^2. After push().
   Vector3 acceleration(int link, const Vector3& point) const;
   const Vector3& origin() const { return origin_; }
+
+  /// Computes the inertias at the present place, of links and articulated, with `added` to the mass matrix by degree of
+  /// freedom, kg or kg m^2.
+  void weigh(const Eigen::VectorXd& added);
+  /// Adds to the wrenches on links what takes them from velocities in a substep to those that the joints allow. After
+  /// weigh().
+  void add_impulses(const std::vector<Twist>& velocities, double step, std::vector<Wrench>& wrenches) const;
+  /// Changes the rates by a substep: (M + added) du = step (forces - bias), where the bias is what rates and wrenches
+  /// on links (about their centres of mass) need, at the mean of the rates before and after, which makes it of second
+  /// order. After weigh(), and set_velocities() of the present rates.
+  void push(double step, const std::vector<Wrench>& wrenches, const Eigen::VectorXd& forces);
+
+  /// Computes the factors of the mass matrix plus `added`, for rows of constraints. After weigh().
+  void factor();
+  /// After factor().
+  const BranchedFactors& factors() const { return factors_; }
   /// Adds to the degrees of freedom that move a link, from `forces` of all, what a force and its moment about the
-  /// origin do along them.
+  /// origin do along them. After factor().
   void project(int link, const Vector3& moment, const Vector3& force, double* forces) const;
 
-  /// Computes the mass matrix at the present place.
-  void compute_mass();
-  /// Of a link about its centre of mass in world axes, kg m^2. After compute_mass().
-  const Matrix3& inertia(int link) const { return bodies_[index(link)].inertia; }
-  /// Computes and factors the mass matrix plus `added`, kg or kg m^2 by degree of freedom, at the present place.
-  void factor(const Eigen::VectorXd& added);
-  const BranchedMatrix& mass_matrix() const { return mass_matrix_; }
-
-  /// The generalised forces that rates and wrenches on links (about their centres of mass) need, without those of
-  /// accelerated rates. After factor(), and set_velocities() of the same rates.
-  void bias(const Eigen::VectorXd& rates, const std::vector<Wrench>& wrenches, Eigen::VectorXd& forces);
-  /// Changes the rates by a substep: (M + added) du = step (forces - bias), with the bias at the mean of the rates
-  /// before and after, which makes it of second order. After factor(), and set_velocities() of the present rates.
-  void push(double step, const std::vector<Wrench>& wrenches, const Eigen::VectorXd& forces);
   /// Moves the joints by the rates.
   void move(double step);
   double kinetic_energy() const;
 
   /// The link of kFree that carries a link; -1: the world carries it.
   int free_root(int link) const { return links_[index(link)].free_root; }
+  /// Of a link with a velocity, at the present place. After weigh().
+  TreeMomentum momentum(int link, const Twist& velocity) const;
   /// Of a link, at the present place. After set_velocities().
   TreeMomentum momentum(int link) const;
   /// Changes the velocities of links of kFree, and with them that of all that they carry as if it were rigid, until
@@ -115,43 +122,64 @@ class Tree {
  private:
   struct Placed {
     TreeLink link;
-    int first_dof = 0;
-    int dof_count = 0;
     int last_dof = -1;
     int free_root = -1;
-    Vector3 axis;  // in the parent
+    // In the parent, and in the link:
+    Four axis = {};
+    Four in_parent = {};
+    Four in_child = {};
+    // Of a link that turns about one axis, its orientation in its parent after 0 and half a turn: with cosine and sine
+    // of half an angle they add up to the one there.
+    Four straight = {};
+    Four turned = {};
   };
   struct Body {
-    Matrix3 axes = Matrix3::Identity();
-    Quaternion orientation;
-    Vector3 centre;  // from the origin
-    Vector3 anchor;  // of its joint, likewise
-    RigidMotion velocity;
-    RigidMotion acceleration;  // the derivative of `velocity` while the rates are constant
-    Vector3 force, moment;
-    Matrix3 inertia = Matrix3::Zero();  // world axes, about the centre
-    // Of the link with all that it carries, about the origin:
+    MatrixLanes axes;
+    Four orientation = {0, 0, 0, 1};  // x, y, z, w
+    Four centre = {};                 // from the origin
+    Four anchor = {};                 // of its joint, likewise
+    SpatialLanes velocity;
+    // Of weigh():
     double mass = 0;
-    Vector3 first;
-    Matrix3 second = Matrix3::Zero();
+    MatrixLanes inertia;  // world axes, about the centre
+    // Of push():
+    SpatialLanes acceleration;  // the derivative of `velocity` while the rates are constant
+    SpatialLanes needs;         // for this acceleration, with what its children need
+    SpatialLanes change;        // of the velocity per second, by that of the rates
   };
 
   static std::size_t index(int number) { return static_cast<std::size_t>(number); }
-  const Body& parent_of(const TreeLink& link) const { return link.parent < 0 ? world_ : bodies_[index(link.parent)]; }
+  /// Of a TreeLink or its LinkDofs.
+  template <class Link>
+  const Body& parent_of(const Link& link) const {
+    return link.parent < 0 ? world_ : bodies_[index(link.parent)];
+  }
+  static Quaternion quaternion_of(const Body& body) {
+    const Four& turn = body.orientation;
+    return {turn[3], turn[0], turn[1], turn[2]};
+  }
   void set_origin(const Vector3& origin);
+  void read_joint(int link, const std::vector<Twist>& velocities);
   void place_joint(int link);
-  void set_column(int dof, const RigidMotion& column);
-  void accelerate(int link, const Eigen::VectorXd& rates);
+  void set_velocity(int link, const double* rates);
+  void accelerate(int link, const double* rates);
+  void find_need(int link, const double* rates, const Wrench& wrench);
+  void gather_needs(const double* forces);
+  void find_change(int link);
+  void set_momentum(int root, const TreeMomentum& wanted);
 
   std::vector<Placed> links_;
+  std::vector<LinkDofs> numbers_;
   std::vector<TreeJointState> joints_;
   std::vector<Body> bodies_;
   Body world_;
-  std::vector<RigidMotion> columns_;
-  Directions directions_;  // the columns once more
-  BranchedMatrix mass_matrix_;
-  Eigen::VectorXd rates_, middle_, bias_, change_;
+  std::vector<ArticulatedInertia> inertias_;
+  std::vector<TreeDof> dofs_;
+  Eigen::VectorXd rates_, middle_;
+  Eigen::VectorXd change_;  // of the rates per second; before, the forces that are left for it
   Vector3 origin_;
+  Directions directions_;  // those of the degrees of freedom, once more
+  BranchedFactors factors_;
 };
 
 }  // namespace bubblesim

@@ -1,143 +1,176 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Velocities, bias forces, mass matrix and factors of a tree.
+// Velocities, inertias and accelerations of a tree.
 #include "physics/solver/tree.hpp"
-#include "scene/unit_steiner.hpp"
+#include "scene/simd.hpp"
 
 namespace bubblesim {
 
-void Tree::set_velocities(const Eigen::VectorXd& rates) {
-  for (int i = 0; i < links(); ++i) {
-    const Placed& placed = links_[index(i)];
-    RigidMotion& velocity = bodies_[index(i)].velocity;
-    velocity = parent_of(placed.link).velocity;
-    for (int k = placed.first_dof; k < placed.first_dof + placed.dof_count; ++k) {
-      velocity += columns_[index(k)] * rates[k];
-    }
-  }
+BUBBLESIM_SIMD void Tree::set_velocities(const Eigen::VectorXd& rates) {
+  for (int i = 0; i < links(); ++i) set_velocity(i, rates.data());
 }
 
-/// What the motions of columns, which the parent or the world carries, add to a link's acceleration.
-void Tree::accelerate(int number, const Eigen::VectorXd& rates) {
-  const Placed& placed = links_[index(number)];
-  const Body& parent = parent_of(placed.link);
-  Body& body = bodies_[index(number)];
-  body.acceleration = parent.acceleration;
-  const int dof = placed.first_dof;
-  if (placed.link.motion == TreeMotion::kFree) {
-    // The centre of mass goes straight on.
-    body.acceleration.slide = body.velocity.at(body.centre).cross(body.velocity.turn);
-    return;
-  }
-  if (placed.link.motion == TreeMotion::kBall) {
-    // The axes are the world's, through a point of the parent.
-    body.acceleration.slide += parent.velocity.at(body.anchor).cross(rates.segment<3>(dof));
-    return;
-  }
-  RigidMotion carrier = parent.velocity;
-  for (int k = dof; k < dof + placed.dof_count; ++k) {
-    const RigidMotion own = columns_[index(k)] * rates[k];
-    body.acceleration.turn += carrier.turn.cross(own.turn);
-    body.acceleration.slide += carrier.turn.cross(own.slide) + carrier.slide.cross(own.turn);
-    carrier += own;
-  }
+/// That of the parent is set.
+BUBBLESIM_INLINE void Tree::set_velocity(int link, const double* rates) {
+  const LinkDofs& own = numbers_[index(link)];
+  SpatialLanes velocity = parent_of(own).velocity;
+  for (int k = own.first; k < own.first + own.count; ++k) velocity.add(rates[k], dofs_[index(k)].direction);
+  bodies_[index(link)].velocity = velocity;
 }
 
-void Tree::bias(const Eigen::VectorXd& rates, const std::vector<Wrench>& wrenches, Eigen::VectorXd& forces) {
+BUBBLESIM_SIMD void Tree::weigh(const Eigen::VectorXd& added) {
   for (int i = 0; i < links(); ++i) {
-    accelerate(i, rates);
+    const TreeLink& link = links_[index(i)].link;
     Body& body = bodies_[index(i)];
-    const Wrench& wrench = wrenches[index(i)];
-    const Vector3& spin = body.velocity.turn;
-    const Vector3 pull = body.acceleration.at(body.centre) + spin.cross(body.velocity.at(body.centre));
-    body.force = pull * links_[index(i)].link.mass - wrench.force;
-    body.moment = body.inertia * body.acceleration.turn + spin.cross(body.inertia * spin) - wrench.torque;
-    body.moment += body.centre.cross(body.force);
-  }
-  forces.resize(dofs());
-  for (int i = links() - 1; i >= 0; --i) {
-    const Placed& placed = links_[index(i)];
-    const Body& body = bodies_[index(i)];
-    for (int k = placed.first_dof; k < placed.first_dof + placed.dof_count; ++k) {
-      forces[k] = columns_[index(k)].turn.dot(body.moment) + columns_[index(k)].slide.dot(body.force);
+    body.mass = link.mass;
+    body.inertia = turned_inertia(link.inertia, body.axes);
+    // A point mass at r resists a turn about the axis e by r x (e x r), and by e x r.
+    const Four r = body.centre;
+    for (int j = 0; j < 3; ++j) {
+      const Four axis{j == 0 ? 1.0 : 0.0, j == 1 ? 1.0 : 0.0, j == 2 ? 1.0 : 0.0, 0};
+      const Four push = cross(axis, r) * link.mass;
+      inertias_[index(i)].columns[j].angular = body.inertia.columns[j] + cross(r, push);
+      inertias_[index(i)].columns[j].linear = push;
+      inertias_[index(i)].columns[j + 3].angular = -push;
+      inertias_[index(i)].columns[j + 3].linear = axis * link.mass;
     }
-    if (placed.link.parent < 0) continue;
-    bodies_[index(placed.link.parent)].force += body.force;
-    bodies_[index(placed.link.parent)].moment += body.moment;
+  }
+  eliminate(numbers_.data(), links(), added.data(), inertias_.data(), dofs_.data());
+}
+
+BUBBLESIM_SIMD void Tree::add_impulses(const std::vector<Twist>& velocities, double step,
+                                       std::vector<Wrench>& wrenches) const {
+  for (int i = 0; i < links(); ++i) {
+    const Body& body = bodies_[index(i)];
+    const Twist& given = velocities[index(i)];
+    const Four force = (lanes_of(given.linear) - body.velocity.at(body.centre)) * (body.mass / step);
+    const Four torque = body.inertia * (lanes_of(given.angular) - body.velocity.angular) * (1 / step);
+    Wrench& wrench = wrenches[index(i)];
+    for (int k = 0; k < 3; ++k) {
+      wrench.force[k] += force[k];
+      wrench.torque[k] += torque[k];
+    }
+  }
+}
+
+void Tree::factor() {
+  for (int k = 0; k < dofs(); ++k) {
+    const TreeDof& dof = dofs_[index(k)];
+    directions_.set(k, dof.direction);
+    factors_.set_inverse_diagonal(k, dof.inverse_inertia);
+  }
+  factors_.set_zero();
+  for (int k = 0; k < dofs(); ++k) {
+    const TreeDof& dof = dofs_[index(k)];
+    const Vector3 moment = vector_of(dof.passes.angular);
+    const Vector3 force = vector_of(dof.passes.linear);
+    for (int last = before(k); last >= 0;) {
+      const int first = factors_.first_of_run(last);
+      directions_.project(moment, force, first, last - first + 1, &factors_.entry(k, first));
+      last = before(first);
+    }
   }
 }
 
 void Tree::project(int link, const Vector3& moment, const Vector3& force, double* forces) const {
   for (int last = last_dof(link); last >= 0;) {
-    const int first = mass_matrix_.first_of_run(last);
+    const int first = factors_.first_of_run(last);
     directions_.project(moment, force, first, last - first + 1, forces + first);
     last = before(first);
   }
 }
 
-void Tree::compute_mass() {
-  mass_matrix_.set_zero();
-  for (int i = 0; i < links(); ++i) {
-    Body& body = bodies_[index(i)];
-    const Vector3& c = body.centre;
-    body.inertia = body.axes * links_[index(i)].link.inertia * body.axes.transpose();
-    body.mass = links_[index(i)].link.mass;
-    body.first = c * body.mass;
-    body.second = body.inertia + body.mass * unit_steiner(c);
-  }
-  for (int i = links() - 1; i >= 0; --i) {
-    const Placed& placed = links_[index(i)];
-    const Body& body = bodies_[index(i)];
-    for (int k = placed.first_dof; k < placed.first_dof + placed.dof_count; ++k) {
-      const RigidMotion& column = columns_[index(k)];
-      const Vector3 momentum = column.slide * body.mass + column.turn.cross(body.first);
-      const Vector3 angular = body.second * column.turn + body.first.cross(column.slide);
-      for (int last = k; last >= 0;) {
-        const int first = mass_matrix_.first_of_run(last);
-        directions_.project(angular, momentum, first, last - first + 1, &mass_matrix_.entry(k, first));
-        last = before(first);
-      }
+/// Computes the acceleration of a link while the rates are constant; that of the parent is there.
+BUBBLESIM_INLINE void Tree::accelerate(int link, const double* rates) {
+  const LinkDofs& own = numbers_[index(link)];
+  const Body& parent = parent_of(own);
+  Body& body = bodies_[index(link)];
+  SpatialLanes acceleration = parent.acceleration;
+  if (own.is_free) {
+    // The centre of mass goes straight on.
+    acceleration.linear = cross(body.velocity.at(body.centre), body.velocity.angular);
+  } else if (own.is_ball) {
+    // The axes are the world's, through a point of the parent.
+    const Four spin{rates[own.first], rates[own.first + 1], rates[own.first + 2], 0};
+    acceleration.linear += cross(parent.velocity.at(body.anchor), spin);
+  } else {
+    // Parent or world carry the directions of motion.
+    SpatialLanes carrier = parent.velocity;
+    for (int k = own.first; k < own.first + own.count; ++k) {
+      SpatialLanes motion;
+      motion.add(rates[k], dofs_[index(k)].direction);
+      acceleration.angular += cross(carrier.angular, motion.angular);
+      acceleration.linear += cross(carrier.angular, motion.linear) + cross(carrier.linear, motion.angular);
+      carrier.add(motion);
     }
-    if (placed.link.parent < 0) continue;
-    Body& parent = bodies_[index(placed.link.parent)];
-    parent.mass += body.mass;
-    parent.first += body.first;
-    parent.second += body.second;
+  }
+  body.acceleration = acceleration;
+}
+
+/// Computes what a link needs beside the wrench on it while the rates are constant.
+BUBBLESIM_INLINE void Tree::find_need(int link, const double* rates, const Wrench& wrench) {
+  accelerate(link, rates);
+  Body& body = bodies_[index(link)];
+  const Four spin = body.velocity.angular;
+  const Four pull = body.acceleration.at(body.centre) + cross(spin, body.velocity.at(body.centre));
+  body.needs.linear = pull * body.mass - lanes_of(wrench.force);
+  body.needs.angular = body.inertia * body.acceleration.angular + cross(spin, body.inertia * spin) -
+                       lanes_of(wrench.torque) + cross(body.centre, body.needs.linear);
+}
+
+/// Passes the needs on to the parents, as far as the joints do not give way to the forces that are left.
+BUBBLESIM_INLINE void Tree::gather_needs(const double* forces) {
+  for (int i = links() - 1; i >= 0; --i) {
+    const LinkDofs& own = numbers_[index(i)];
+    SpatialLanes needs = bodies_[index(i)].needs;
+    for (int k = own.first + own.count - 1; k >= own.first; --k) {
+      const TreeDof& dof = dofs_[index(k)];
+      change_[k] = forces[k] - needs.along(dof.direction);
+      needs.add(change_[k], dof.passes);
+    }
+    if (own.parent >= 0) bodies_[index(own.parent)].needs.add(needs);
   }
 }
 
-void Tree::factor(const Eigen::VectorXd& added) {
-  compute_mass();
-  for (int k = 0; k < dofs(); ++k) mass_matrix_.entry(k, k) += added[k];
-  mass_matrix_.factor();
+/// Computes how a link's rates, and with them its velocity, change per second; that of the parent is there.
+BUBBLESIM_INLINE void Tree::find_change(int link) {
+  const LinkDofs& own = numbers_[index(link)];
+  SpatialLanes change = parent_of(own).change;
+  for (int k = own.first; k < own.first + own.count; ++k) {
+    const TreeDof& dof = dofs_[index(k)];
+    change_[k] = change_[k] * dof.inverse_inertia - dof.passes.along(change);
+    change.add(change_[k], dof.direction);
+  }
+  bodies_[index(link)].change = change;
 }
 
-void Tree::push(double step, const std::vector<Wrench>& wrenches, const Eigen::VectorXd& forces) {
-  const auto predict = [&](const Eigen::VectorXd& rates) {
-    bias(rates, wrenches, bias_);
-    change_ = (forces - bias_) * step;
-    mass_matrix_.solve_upper(change_.data());
-    for (int k = 0; k < dofs(); ++k) change_[k] *= mass_matrix_.inverse_diagonal(k);
-    mass_matrix_.solve_lower(change_.data());
-  };
-  predict(rates_);
-  middle_ = rates_ + change_ / 2;
-  set_velocities(middle_);
-  predict(middle_);
-  rates_ += change_;
+BUBBLESIM_SIMD void Tree::push(double step, const std::vector<Wrench>& wrenches, const Eigen::VectorXd& forces) {
+  change_.resize(dofs());
+  for (int i = 0; i < links(); ++i) find_need(i, rates_.data(), wrenches[index(i)]);
+  gather_needs(forces.data());
+  middle_.resize(dofs());
+  for (int i = 0; i < links(); ++i) {
+    find_change(i);
+    const LinkDofs& own = numbers_[index(i)];
+    for (int k = own.first; k < own.first + own.count; ++k) middle_[k] = rates_[k] + change_[k] * (step / 2);
+    set_velocity(i, middle_.data());
+    find_need(i, middle_.data(), wrenches[index(i)]);
+  }
+  gather_needs(forces.data());
+  for (int i = 0; i < links(); ++i) find_change(i);
+  for (int k = 0; k < dofs(); ++k) rates_[k] += change_[k] * step;
 }
 
 Vector3 Tree::acceleration(int link, const Vector3& point) const {
   const Body& body = bodies_[index(link)];
-  const Vector3 from_origin = point - origin_;
-  return body.acceleration.at(from_origin) + body.velocity.turn.cross(body.velocity.at(from_origin));
+  const Four from_origin = lanes_of(point - origin_);
+  return vector_of(body.acceleration.at(from_origin) + cross(body.velocity.angular, body.velocity.at(from_origin)));
 }
 
 double Tree::kinetic_energy() const {
   double sum = 0;
   for (int i = 0; i < links(); ++i) {
-    const Body& body = bodies_[index(i)];
     const Twist velocity = this->velocity(i);
-    const Vector3 spin = body.axes.transpose() * velocity.angular;
+    const Vector3 spin = quaternion_of(bodies_[index(i)]).conjugate() * velocity.angular;
     sum += links_[index(i)].link.mass * velocity.linear.squaredNorm() + spin.dot(links_[index(i)].link.inertia * spin);
   }
   return sum / 2;

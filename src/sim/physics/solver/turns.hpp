@@ -14,13 +14,26 @@ inline Quaternion turn_about(const Vector3& axis, double angle) {
   return {std::cos(angle / 2), part.x(), part.y(), part.z()};
 }
 
-/// The part of a rotation about a unit axis.
-inline Quaternion turn_about(const Vector3& axis, const Quaternion& turn) {
-  const double sine = axis.dot(turn.vec());
-  const double length = std::sqrt(sine * sine + turn.w() * turn.w());
-  if (length == 0) return {};
-  const Vector3 part = axis * (sine / length);
-  return {turn.w() / length, part.x(), part.y(), part.z()};
+/// One over the root of a square, without root and division where it is nearly 1.
+inline double inverse_length(double square) {
+  const double beyond = square - 1;
+  return std::abs(beyond) < 1e-8 ? 1 - beyond / 2 : 1 / std::sqrt(square);
+}
+
+/// The rotation about a unit axis by twice the angle of which these are parts, but for a factor, of cosine and sine.
+inline Quaternion turn_of_parts(const Vector3& axis, double cosine, double sine) {
+  const double square = sine * sine + cosine * cosine;
+  if (square == 0) return {};
+  const double factor = inverse_length(square);
+  const Vector3 part = axis * (sine * factor);
+  return {cosine * factor, part.x(), part.y(), part.z()};
+}
+
+/// As Quaternion::normalized(), faster where the length is nearly 1.
+inline Quaternion normalized(const Quaternion& turn) {
+  Quaternion made;
+  made.coeffs() = turn.coeffs() * inverse_length(turn.squaredNorm());
+  return made;
 }
 
 /// The rotation by a vector in rad.

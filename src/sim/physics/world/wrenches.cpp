@@ -3,6 +3,7 @@
 
 #include "bubblesim/error.hpp"
 #include "bubblesim/world_wrenches.hpp"
+#include "physics/motion/sleep.hpp"
 #include "physics/world/state.hpp"
 #include "scene/describe.hpp"
 #include "validation/limits.hpp"

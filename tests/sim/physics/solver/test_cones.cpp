@@ -45,7 +45,7 @@ void add_contact(ConstraintRows& rows, const TreeBody& on, const Vector3& at, do
 double slide_on_slope(double slope, double mu, double heading) {
   Tree tree = body(3);
   tree.place();
-  tree.factor(Eigen::VectorXd::Zero(6));
+  tree.weigh(Eigen::VectorXd::Zero(6));
   const Vector3 down(std::sin(slope) * std::cos(heading), std::sin(slope) * std::sin(heading), -std::cos(slope));
   tree.push(kStep, {{down * (3 * kGravity), {}}}, Eigen::VectorXd::Zero(6));
   ConstraintRows rows;
@@ -67,7 +67,7 @@ TEST(ThreeWheels, ShareALateralLoadThatIsNotDetermined) {
   // A plate on three points in one line across its motion: friction along the line is shared in no determined way.
   Tree tree = body(12);
   tree.place();
-  tree.factor(Eigen::VectorXd::Zero(6));
+  tree.weigh(Eigen::VectorXd::Zero(6));
   tree.push(kStep, {{{0, 50, -12 * kGravity}, {}}}, Eigen::VectorXd::Zero(6));
   ConstraintRows rows;
   for (const Vector3& at : {Vector3(1, 0, 0), Vector3(-1, 0.5, 0), Vector3(-1, -0.5, 0)}) {
@@ -95,7 +95,7 @@ TEST(Boxes, OnFourCornersSlideAndHold) {
   for (int trial = 0; trial < 100; ++trial) {
     Tree tree = body(2);
     tree.place();
-    tree.factor(Eigen::VectorXd::Zero(6));
+    tree.weigh(Eigen::VectorXd::Zero(6));
     tree.push(kStep, {{{30 * any(random), 30 * any(random), -2 * kGravity}, {0.1 * any(random), 0, any(random)}}},
               Eigen::VectorXd::Zero(6));
     ConstraintRows rows;

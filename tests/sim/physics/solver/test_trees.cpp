@@ -31,7 +31,7 @@ std::vector<Wrench> weights(const Tree& tree) {
 
 void step(Tree& tree, double duration, const std::vector<Wrench>& wrenches) {
   tree.place();
-  tree.factor(Eigen::VectorXd::Zero(tree.dofs()));
+  tree.weigh(Eigen::VectorXd::Zero(tree.dofs()));
   tree.set_velocities(tree.rates());
   tree.push(duration, wrenches, Eigen::VectorXd::Zero(tree.dofs()));
   tree.move(duration);
@@ -77,36 +77,58 @@ Tree mixed_tree(unsigned seed) {
   return tree;
 }
 
-TEST(MassMatrix, GivesTheKineticEnergyOfTheLinks) {
+/// The mass matrix, from the kinetic energies of pairs of rates.
+Eigen::MatrixXd mass_matrix(Tree tree) {
+  const int n = tree.dofs();
+  const auto energy_of = [&](int j, int k) {
+    Eigen::VectorXd rates = Eigen::VectorXd::Zero(n);
+    rates[j] += 1;
+    rates[k] += 1;
+    tree.set_velocities(rates);
+    return tree.kinetic_energy();
+  };
+  Eigen::MatrixXd dense(n, n);
+  for (int j = 0; j < n; ++j) dense(j, j) = energy_of(j, j) / 2;
+  for (int j = 0; j < n; ++j) {
+    for (int k = 0; k < j; ++k) dense(j, k) = dense(k, j) = energy_of(j, k) - (dense(j, j) + dense(k, k)) / 2;
+  }
+  return dense;
+}
+
+TEST(MassMatrix, HasTheFactorsOfArticulatedInertias) {
   for (unsigned seed = 1; seed < 20; ++seed) {
     Tree tree = mixed_tree(seed);
-    tree.compute_mass();
-    double sum = 0;
-    for (int k = 0; k < tree.dofs(); ++k) {
-      for (int j = k; j >= 0; j = tree.before(j)) {
-        sum += (j == k ? 0.5 : 1) * tree.mass_matrix().entry(k, j) * tree.rates()[k] * tree.rates()[j];
-      }
+    const int n = tree.dofs();
+    const Eigen::VectorXd added = Eigen::VectorXd::LinSpaced(n, 0, 0.3);
+    tree.weigh(added);
+    tree.factor();
+    Eigen::MatrixXd l = Eigen::MatrixXd::Identity(n, n);
+    Eigen::VectorXd d(n);
+    for (int k = 0; k < n; ++k) {
+      d[k] = 1 / tree.factors().inverse_diagonal(k);
+      for (int j = tree.before(k); j >= 0; j = tree.before(j)) l(k, j) = tree.factors().entry(k, j);
     }
-    tree.set_velocities(tree.rates());
-    EXPECT_NEAR(sum, tree.kinetic_energy(), 1e-10 * sum) << seed;
+    Eigen::MatrixXd dense = mass_matrix(tree);
+    dense.diagonal() += added;
+    EXPECT_LT((l.transpose() * d.asDiagonal() * l - dense).norm(), 1e-10 * dense.norm()) << seed;
   }
 }
 
-TEST(MassMatrix, FactorsSolveIt) {
-  Tree tree = mixed_tree(3);
-  const int n = tree.dofs();
-  tree.compute_mass();
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
-  for (int k = 0; k < n; ++k) {
-    for (int j = k; j >= 0; j = tree.before(j)) dense(k, j) = dense(j, k) = tree.mass_matrix().entry(k, j);
+TEST(Push, AcceleratesByTheMassMatrix) {
+  constexpr double kStep = 1e-7;  // s: rates from rest make no forces yet
+  for (unsigned seed = 1; seed < 20; ++seed) {
+    Tree tree = mixed_tree(seed);
+    const int n = tree.dofs();
+    const Eigen::VectorXd added = Eigen::VectorXd::LinSpaced(n, 0, 0.3);
+    const Eigen::VectorXd forces = Eigen::VectorXd::LinSpaced(n, -1, 2);
+    Eigen::MatrixXd dense = mass_matrix(tree);
+    dense.diagonal() += added;
+    tree.rates().setZero();
+    tree.set_velocities(tree.rates());
+    tree.weigh(added);
+    tree.push(kStep, std::vector<Wrench>(static_cast<std::size_t>(tree.links())), forces);
+    EXPECT_LT((dense * tree.rates() / kStep - forces).norm(), 1e-8) << seed;
   }
-  const Eigen::VectorXd right = Eigen::VectorXd::LinSpaced(n, -1, 2);
-  Eigen::VectorXd x = right;
-  tree.factor(Eigen::VectorXd::Zero(n));
-  tree.mass_matrix().solve_upper(x.data());
-  for (int k = 0; k < n; ++k) x[k] *= tree.mass_matrix().inverse_diagonal(k);
-  tree.mass_matrix().solve_lower(x.data());
-  EXPECT_LT((dense * x - right).norm(), 1e-10);
 }
 
 TEST(Velocities, AreTheSlopesOfThePoses) {

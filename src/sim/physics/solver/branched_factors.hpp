@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Symmetric matrices of the degrees of freedom of a tree, and their factors L^T D L that keep the zeros of branches
+// Factors L^T D L of symmetric matrices of the degrees of freedom of a tree, which keep the zeros of branches
 // (R. Featherstone, "Rigid Body Dynamics Algorithms", 2008, section 6.5).
 #pragma once
 
@@ -10,8 +10,9 @@
 
 namespace bubblesim {
 
-/// Elements of two degrees of freedom are 0 unless one of them is on the way of the other to the world.
-class BranchedMatrix {
+/// L has a unit diagonal. Its elements of two degrees of freedom are 0 unless one of them is on the way of the other to
+/// the world.
+class BranchedFactors {
  public:
   /// Adds a degree of freedom behind another one; -1: behind the world. Returns its number.
   int add(int before);
@@ -22,35 +23,32 @@ class BranchedMatrix {
   int first_of_run(int dof) const { return dofs_[index(dof)].run; }
 
   void set_zero() { values_.assign(values_.size(), 0); }
-  /// Element of a degree of freedom and of another one on its way to the world, or itself. The next elements are those
-  /// of the next ones on this way. Valid until factor() was called.
+  /// Element of L of a degree of freedom and of another one on its way to the world. The next elements are those of the
+  /// next ones on this way.
   double& entry(int dof, int before) { return values_[dofs_[index(dof)].row + dofs_[index(before)].depth]; }
   double entry(int dof, int before) const { return values_[dofs_[index(dof)].row + dofs_[index(before)].depth]; }
+  /// Of D, by degree of freedom.
+  void set_inverse_diagonal(int dof, double value) { inverse_diagonal_[index(dof)] = value; }
+  double inverse_diagonal(int dof) const { return inverse_diagonal_[index(dof)]; }
+  const double* inverse_diagonals() const { return inverse_diagonal_.data(); }
 
-  void factor();
-  /// Half the way of a solution: y = L^-T y.
-  void solve_upper(double* y) const;
-  /// Likewise for each row of y: y = y L^-1.
+  /// Half the way of a solution for each row of y: y = y L^-1.
   void solve_upper(Columns& y) const;
   /// y = L^-1 y.
   void solve_lower(double* y) const;
-  /// Of D, by degree of freedom.
-  double inverse_diagonal(int dof) const { return inverse_diagonal_[index(dof)]; }
-  const double* inverse_diagonals() const { return inverse_diagonal_.data(); }
 
  private:
   struct Dof {
     int before;
     int run;
     std::size_t depth;
-    std::size_t row;  // of its first element, in groups of four up to the diagonal: above it is anything
+    std::size_t row;  // of its first element
   };
   static std::size_t index(int number) { return static_cast<std::size_t>(number); }
 
   std::vector<Dof> dofs_;
   std::vector<double> values_;
   std::vector<double> inverse_diagonal_;
-  std::vector<double> parts_;  // working memory: a row of L
 };
 
 }  // namespace bubblesim
