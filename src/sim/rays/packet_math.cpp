@@ -126,14 +126,17 @@ BUBBLESIM_SIMD bool find_hits(const RTCHit16& hits, const RayMask& mask, RayMask
   return all != 0;
 }
 
-BUBBLESIM_SIMD void take_same(const RTCHit16& hits, std::size_t i, RayMask& left, RayMask& same) {
+BUBBLESIM_SIMD bool take_same(const RTCHit16& hits, std::size_t i, RayMask& left, RayMask& same) {
   const unsigned geometry = hits.geomID[i];
   const unsigned instance = hits.instID[0][i];
+  int any = 0;
   for (std::size_t ray = 0; ray < kPacket; ++ray) {
     const bool equal = (hits.geomID[ray] == geometry) & (hits.instID[0][ray] == instance);
     same.use[ray] = equal ? left.use[ray] : 0;
     left.use[ray] = equal ? 0 : left.use[ray];
+    any |= left.use[ray];
   }
+  return any != 0;
 }
 
 BUBBLESIM_SIMD void keep_distances(const RTCRay16& rays, const RayMask& mask, float none, std::size_t count,

@@ -44,8 +44,8 @@ int hits_from_inside(const RTCRayHit16& packet, const RayMask& mask, unsigned fi
 /// Marks the used rays that hit something. Returns whether all do.
 bool find_hits(const RTCHit16& hits, const RayMask& mask, RayMask& found);
 
-/// Moves the rays that hit the same shape as ray `i` from `left` to `same`.
-void take_same(const RTCHit16& hits, std::size_t i, RayMask& left, RayMask& same);
+/// Moves the rays that hit the same shape as ray `i` from `left` to `same`. Returns whether any are left.
+bool take_same(const RTCHit16& hits, std::size_t i, RayMask& left, RayMask& same);
 
 /// Writes the distances of the marked rays, and `none` for others, of the first `count` rays.
 void keep_distances(const RTCRay16& rays, const RayMask& mask, float none, std::size_t count, float* distances);

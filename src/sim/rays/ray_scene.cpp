@@ -218,6 +218,36 @@ void RayScene::trace(RayPacket& packet, bool coherent, ObjectId ignored) const {
   trace_once(packet, inside, context);
 }
 
+/// Calls `take` with each finite shape, its frame (null: the world), and the geometry and instance of its hits.
+template <class Take>
+void RayScene::for_each_shape(const Take& take) const {
+  for (std::size_t i = 0; i < statics_->shapes.size(); ++i) {
+    take(*statics_->shapes[i], nullptr, static_cast<unsigned>(i), RTC_INVALID_GEOMETRY_ID);
+  }
+  for (std::size_t id = 0; id < links_.size(); ++id) {
+    if (links_[id] == nullptr) continue;
+    const std::vector<const RayShape*>& shapes = links_[id]->link->shapes;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      take(*shapes[i], &links_[id]->frame, static_cast<unsigned>(i), static_cast<unsigned>(id));
+    }
+  }
+}
+
+void RayScene::collect(FacesInView& view) const {
+  for (std::size_t p = 0; p < planes_.size(); ++p) {
+    view.add(planes_[p].equation, static_cast<unsigned>(p), kPlaneInstance);
+  }
+  for_each_shape([&](const RayShape& shape, const Transform* frame, unsigned geometry, unsigned instance) {
+    view.add(shape, frame, geometry, instance);
+  });
+  view.sort();
+}
+
+void RayScene::collect(FacesInLight& light) const {
+  for_each_shape([&](const RayShape& shape, const Transform* frame, unsigned, unsigned) { light.add(shape, frame); });
+  light.arrange();
+}
+
 void RayScene::occlude(RTCRay16& rays, const RayMask& mask) const {
   QueryContext context = make_context(false, kNoObject);
   occlude_packet(mask.use, statics_->scene.get(), context.embree, rays);
