@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flat faces as a pinhole or parallel light sees them, sixteen places at a time, in double precision. A pixel is a
-// direction (1, left, up) from the eye, in the camera's frame.
+// Flat faces in the image of a pinhole or across parallel light, sixteen places at a time, in double precision. A pixel
+// is a direction (1, left, up) from the eye, in the camera's frame.
 //
 // Each side of a face, with the eye, spans a plane; a direction is within the face if it is on the inner side of all of
-// them, which a product with three numbers tells. Another product gives the nearness, 1 / depth, because that is linear
-// in the image: Olano and Greer, "Triangle Scan Conversion using 2D Homogeneous Coordinates", 1997.
+// them, where a product with three numbers is not negative. Another product gives the nearness, 1 / depth, because that
+// is linear in the image: Olano and Greer, "Triangle Scan Conversion using 2D Homogeneous Coordinates", 1997.
 #pragma once
 
 #include <cstddef>

@@ -47,6 +47,10 @@ RayModel::Link make_link(ObjectId id, const std::vector<const RayShape*>& shapes
     link.shapes.push_back(shape);
   }
   rtcCommitScene(link.scene.get());
+  for (const RayShape* shape : link.shapes) link.middle += shape->middle / static_cast<double>(link.shapes.size());
+  for (const RayShape* shape : link.shapes) {
+    link.reach = std::max(link.reach, (shape->middle - link.middle).norm() + shape->reach);
+  }
   return link;
 }
 

@@ -114,6 +114,13 @@ TEST(RayScene, AgreesWithExactRaysAmongAllShapes) {
   expect_as_exact_rays(traced, random, kNoObject);
 }
 
+TEST(RayScene, AgreesWithExactRaysAmongFewMovingShapes) {
+  std::mt19937 random(10);
+  const Traced traced(clutter(random, 30));
+  expect_as_exact_rays(traced, random, kNoObject);
+  expect_as_exact_rays(traced, random, traced.find("/Thing2"));
+}
+
 TEST(RayScene, AgreesWithExactRaysThatLeaveOutAModel) {
   std::mt19937 random(8);
   const Traced traced(clutter(random));
