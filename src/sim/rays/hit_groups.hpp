@@ -21,9 +21,9 @@ class HitGroups {
     RayMask left = hits_;
     for (std::size_t i = 0; i < kPacket; ++i) {
       if (left.use[i] == 0) continue;
-      groups_[count_].ray = i;
-      take_same(packet.data.hit, i, left, groups_[count_].members);
-      ++count_;
+      HitGroup& group = groups_[count_++];
+      group.ray = i;
+      if (!take_same(packet.data.hit, i, left, group.members)) return;
     }
   }
 

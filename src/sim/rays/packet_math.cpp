@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rays/packet_math.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "scene/simd.hpp"
@@ -85,6 +89,53 @@ BUBBLESIM_SIMD bool reach_sphere(const RTCRay16& ray, const int* use, const doub
   return any != 0;
 }
 
+/// The least cosine between the used rays and an axis.
+BUBBLESIM_SIMD float least_cosine(const RTCRay16& rays, const int* use, const float* axis) {
+  alignas(64) float cosine[kPacket];
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    const float x = rays.dir_x[i];
+    const float y = rays.dir_y[i];
+    const float z = rays.dir_z[i];
+    const float along = x * axis[0] + y * axis[1] + z * axis[2];
+    cosine[i] = use[i] != 0 ? along / std::sqrt(x * x + y * y + z * z) : 1;
+  }
+  // Positive numbers are in the order of their bits, and negative ones below them: whole numbers have a least one that
+  // is found sixteen at a time.
+  alignas(64) std::int32_t bits[kPacket];
+  std::memcpy(bits, cosine, sizeof bits);
+  std::int32_t least = std::numeric_limits<std::int32_t>::max();
+  for (std::size_t i = 0; i < kPacket; ++i) least = bits[i] < least ? bits[i] : least;
+  float found = 0;
+  std::memcpy(&found, &least, sizeof found);
+  return found;
+}
+
+BUBBLESIM_SIMD void turn_rays(const double* columns, const double* p, const RTCRay16& rays, RTCRay16& turned) {
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    const double x = static_cast<double>(rays.org_x[i]) - p[0];
+    const double y = static_cast<double>(rays.org_y[i]) - p[1];
+    const double z = static_cast<double>(rays.org_z[i]) - p[2];
+    turned.org_x[i] = static_cast<float>(columns[0] * x + columns[1] * y + columns[2] * z);
+    turned.org_y[i] = static_cast<float>(columns[3] * x + columns[4] * y + columns[5] * z);
+    turned.org_z[i] = static_cast<float>(columns[6] * x + columns[7] * y + columns[8] * z);
+  }
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    const double x = rays.dir_x[i];
+    const double y = rays.dir_y[i];
+    const double z = rays.dir_z[i];
+    turned.dir_x[i] = static_cast<float>(columns[0] * x + columns[1] * y + columns[2] * z);
+    turned.dir_y[i] = static_cast<float>(columns[3] * x + columns[4] * y + columns[5] * z);
+    turned.dir_z[i] = static_cast<float>(columns[6] * x + columns[7] * y + columns[8] * z);
+  }
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    turned.tnear[i] = rays.tnear[i];
+    turned.tfar[i] = rays.tfar[i];
+    turned.time[i] = 0;
+    turned.mask[i] = ~0U;
+    turned.flags[i] = 0;
+  }
+}
+
 BUBBLESIM_SIMD int from_inside(const RTCRay16& ray, const RTCHit16& hit, const int* use, unsigned first_other,
                                int* inside, int* moving) {
   int any = 0;
@@ -112,6 +163,51 @@ bool can_meet_sphere(const RTCRay16& rays, const int* use, const Vector3& centre
   return reach_sphere(rays, use, centre.data(), radius * (1 + 1e-4) + 1e-4, can.use);
 }
 
+void into_frame(const Matrix3& turn, const Vector3& position, const RTCRay16& rays, RTCRayHit16& turned) {
+  turn_rays(turn.data(), position.data(), rays, turned.ray);
+  for (std::size_t i = 0; i < kPacket; ++i) turned.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+}
+
+BUBBLESIM_SIMD void take_hits(const RTCRayHit16& turned, unsigned instance, const RayMask& mask, RTCRayHit16& packet) {
+  RTCHit16& hit = packet.hit;
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    const bool met = (mask.use[i] != 0) & (turned.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID);
+    packet.ray.tfar[i] = met ? turned.ray.tfar[i] : packet.ray.tfar[i];
+    hit.Ng_x[i] = met ? turned.hit.Ng_x[i] : hit.Ng_x[i];
+    hit.Ng_y[i] = met ? turned.hit.Ng_y[i] : hit.Ng_y[i];
+    hit.Ng_z[i] = met ? turned.hit.Ng_z[i] : hit.Ng_z[i];
+    hit.u[i] = met ? turned.hit.u[i] : hit.u[i];
+    hit.v[i] = met ? turned.hit.v[i] : hit.v[i];
+    hit.primID[i] = met ? turned.hit.primID[i] : hit.primID[i];
+    hit.geomID[i] = met ? turned.hit.geomID[i] : hit.geomID[i];
+    hit.instID[0][i] = met ? instance : hit.instID[0][i];
+  }
+}
+
+Cone cone_around(const RTCRay16& rays, const RayMask& mask) {
+  constexpr double kRounding = 1e-5;  // of a cosine, generously
+  std::size_t middle = kPacket / 2;
+  while (middle > 0 && mask.use[middle] == 0) --middle;
+  while (middle + 1 < kPacket && mask.use[middle] == 0) ++middle;
+  Cone cone;
+  cone.apex = Vector3(rays.org_x[middle], rays.org_y[middle], rays.org_z[middle]);
+  cone.axis = Vector3(rays.dir_x[middle], rays.dir_y[middle], rays.dir_z[middle]).normalized();
+  const Eigen::Vector3f axis = cone.axis.cast<float>();
+  cone.cosine = static_cast<double>(least_cosine(rays, mask.use, axis.data())) - kRounding;
+  cone.sine = std::sqrt(std::max(0.0, 1 - cone.cosine * cone.cosine));
+  return cone;
+}
+
+bool reaches_into(const Vector3& centre, double radius, const Cone& cone) {
+  if (!(cone.cosine > 0)) return true;
+  const Vector3 offset = centre - cone.apex;
+  const double along = offset.dot(cone.axis);
+  const double least =
+      radius + along * cone.sine;  // times the cosine: what is farther from the axis is beside the cone
+  const double square = offset.squaredNorm() - along * along;
+  return least >= 0 && square * cone.cosine * cone.cosine <= least * least;
+}
+
 int hits_from_inside(const RTCRayHit16& packet, const RayMask& mask, unsigned first_other, RayMask& inside,
                      int& moving) {
   return from_inside(packet.ray, packet.hit, mask.use, first_other, inside.use, &moving);
@@ -126,14 +222,17 @@ BUBBLESIM_SIMD bool find_hits(const RTCHit16& hits, const RayMask& mask, RayMask
   return all != 0;
 }
 
-BUBBLESIM_SIMD void take_same(const RTCHit16& hits, std::size_t i, RayMask& left, RayMask& same) {
+BUBBLESIM_SIMD bool take_same(const RTCHit16& hits, std::size_t i, RayMask& left, RayMask& same) {
   const unsigned geometry = hits.geomID[i];
   const unsigned instance = hits.instID[0][i];
+  int any = 0;
   for (std::size_t ray = 0; ray < kPacket; ++ray) {
     const bool equal = (hits.geomID[ray] == geometry) & (hits.instID[0][ray] == instance);
     same.use[ray] = equal ? left.use[ray] : 0;
     left.use[ray] = equal ? 0 : left.use[ray];
+    any |= left.use[ray];
   }
+  return any != 0;
 }
 
 BUBBLESIM_SIMD void keep_distances(const RTCRay16& rays, const RayMask& mask, float none, std::size_t count,

@@ -32,9 +32,27 @@ struct PlaneEquation {
 void meet_plane(const PlaneEquation& plane, unsigned geometry, unsigned instance, const RayMask& mask,
                 RTCRayHit16& packet);
 
+/// Around rays that start at one point.
+struct Cone {
+  Vector3 apex;
+  Vector3 axis;   ///< unit vector
+  double cosine;  ///< of the angle between the axis and the side; negative: any direction
+  double sine;
+};
+/// The cone of the used rays about one of them, a little wider than needed.
+Cone cone_around(const RTCRay16& rays, const RayMask& mask);
+/// Whether a sphere reaches into a cone; also true for some that are close to it.
+bool reaches_into(const Vector3& centre, double radius, const Cone& cone);
+
 /// Marks those of the used rays that can meet a sphere before they end; a margin covers rounding. Returns whether any
 /// can.
 bool can_meet_sphere(const RTCRay16& rays, const int* use, const Vector3& centre, double radius, RayMask& can);
+
+/// Copies rays into a frame at `position` with the axes `turn`, without their hits.
+void into_frame(const Matrix3& turn, const Vector3& position, const RTCRay16& rays, RTCRayHit16& turned);
+
+/// Copies the hits of rays that were traced in the frame of an instance, and sets that.
+void take_hits(const RTCRayHit16& turned, unsigned instance, const RayMask& mask, RTCRayHit16& packet);
 
 /// Marks the used rays whose hit on a still face is from inside. Returns the marks of all rays combined, and in
 /// `moving` whether a ray hit an instance, which has an id below `first_other`.
@@ -44,8 +62,8 @@ int hits_from_inside(const RTCRayHit16& packet, const RayMask& mask, unsigned fi
 /// Marks the used rays that hit something. Returns whether all do.
 bool find_hits(const RTCHit16& hits, const RayMask& mask, RayMask& found);
 
-/// Moves the rays that hit the same shape as ray `i` from `left` to `same`.
-void take_same(const RTCHit16& hits, std::size_t i, RayMask& left, RayMask& same);
+/// Moves the rays that hit the same shape as ray `i` from `left` to `same`. Returns whether any are left.
+bool take_same(const RTCHit16& hits, std::size_t i, RayMask& left, RayMask& same);
 
 /// Writes the distances of the marked rays, and `none` for others, of the first `count` rays.
 void keep_distances(const RTCRay16& rays, const RayMask& mask, float none, std::size_t count, float* distances);

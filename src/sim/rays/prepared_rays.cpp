@@ -20,9 +20,7 @@ VisualDescription as_visual(const CollisionDescription& collision) {
 RayShape make_shape(const VisualDescription& visual, const Pose& pose) {
   RayShape shape;
   shape.geometry = visual.geometry;
-  shape.pose = pose;
-  shape.turn = pose.orientation.toRotationMatrix();
-  shape.turn_back = shape.turn.transpose();
+  place(shape, pose);
   shape.material = visual.material;
   shape.keeps_mesh_materials = visual.keeps_mesh_materials;
   shape.cast_shadows = visual.cast_shadows;
@@ -49,6 +47,10 @@ RayModel::Link make_link(ObjectId id, const std::vector<const RayShape*>& shapes
     link.shapes.push_back(shape);
   }
   rtcCommitScene(link.scene.get());
+  for (const RayShape* shape : link.shapes) link.middle += shape->middle / static_cast<double>(link.shapes.size());
+  for (const RayShape* shape : link.shapes) {
+    link.reach = std::max(link.reach, (shape->middle - link.middle).norm() + shape->reach);
+  }
   return link;
 }
 
@@ -93,9 +95,7 @@ SharedRayModel loosened(const RayModel& model, ObjectId link, const Pose& pose) 
   for (const RayModel::Fixed& fixed : model.fixed) {
     if (fixed.shape->link != link) continue;
     RayShape shape = *fixed.shape;
-    shape.pose = pose.inverse() * shape.pose;
-    shape.turn = shape.pose.orientation.toRotationMatrix();
-    shape.turn_back = shape.turn.transpose();
+    place(shape, pose.inverse() * shape.pose);
     shapes.push_back(loose->shapes.emplace_back(std::make_unique<RayShape>(std::move(shape))).get());
   }
   if (!shapes.empty()) loose->links.push_back(make_link(link, shapes));

@@ -29,6 +29,8 @@ struct RayModel {
     ObjectId id = kNoObject;
     SceneHandle scene;
     std::vector<const RayShape*> shapes;  // by geometry id
+    Vector3 middle;                       // of a sphere around them, in the link's frame
+    double reach = 0;                     // m, its radius
   };
 
   ObjectId object = kNoObject;

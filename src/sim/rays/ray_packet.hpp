@@ -41,10 +41,16 @@ struct RayPacket {
       data.ray.org_y[i] = y;
       data.ray.org_z[i] = z;
       data.ray.tnear[i] = near;
-      data.ray.tfar[i] = far;
       data.ray.time[i] = 0;
       data.ray.mask[i] = ~0U;
       data.ray.flags[i] = 0;
+    }
+    restart(far, count);
+  }
+  /// Forgets the hits of a packet that was traced; origins and near ends stay.
+  void restart(float far, std::size_t count) {
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      data.ray.tfar[i] = far;
       data.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       data.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
       mask.use[i] = i < count ? kUsed : 0;

@@ -15,6 +15,9 @@ namespace {
 
 using namespace rays;
 
+/// Up to as many moving links are looked at one by one; a scene of more of them repays its making.
+constexpr std::size_t kFewLinks = 16;
+
 constexpr unsigned kPlaneInstance = RTC_INVALID_GEOMETRY_ID - 1;  // marks hits on planes_
 
 QueryContext make_context(bool coherent, ObjectId ignored) {
@@ -42,8 +45,13 @@ struct RayScene::MovingLink {
   ObjectId model;
   Pose pose;
   Transform frame;  // of the same pose
+  Vector3 middle;   // of its shapes, in the world
   bool placed = false;
   GeometryHandle instance;
+
+  bool is_near(const RTCRay16& rays, const RayMask& mask, RayMask& near) const {
+    return can_meet_sphere(rays, mask.use, middle, link->reach, near);
+  }
 };
 
 RayScene::RayScene() = default;
@@ -141,6 +149,7 @@ void RayScene::refresh(const World& world) {
     if (link->placed && pose == link->pose) continue;
     link->pose = pose;
     link->frame = Transform(pose);
+    link->middle = link->frame * link->link->middle;
     link->placed = true;
     Eigen::Matrix<float, 3, 4> matrix;
     matrix << link->frame.rotation.cast<float>(), link->frame.position.cast<float>();
@@ -153,7 +162,7 @@ void RayScene::refresh(const World& world) {
     statics_ = gather_statics(models_, loose_);
     statics_changed_ = false;
   }
-  if (movers_changed_) {
+  if (movers_changed_ && links_.size() > kFewLinks) {
     rtcCommitScene(movers_.get());
     check_embree();
     movers_changed_ = false;
@@ -181,7 +190,20 @@ void RayScene::trace_once(RayPacket& packet, const RayMask& mask, QueryContext& 
   if (!starts_in_housings(packet, context)) {
     intersect_packet(mask.use, statics_->housings.get(), context.embree, packet.data);
   }
-  if (!links_.empty()) intersect_packet(mask.use, movers_.get(), context.embree, packet.data);
+  if (links_.size() > kFewLinks) return intersect_packet(mask.use, movers_.get(), context.embree, packet.data);
+  Cone cone;
+  cone.cosine = -1;
+  if (context.embree.coherent && !links_.empty()) cone = cone_around(packet.data.ray, mask);
+  for (std::size_t id = 0; id < links_.size(); ++id) {
+    if (links_[id] == nullptr) continue;
+    const MovingLink& link = *links_[id];
+    RayMask near;
+    if (!reaches_into(link.middle, link.link->reach, cone) || !link.is_near(packet.data.ray, mask, near)) continue;
+    RTCRayHit16 turned;
+    into_frame(link.frame.rotation, link.frame.position, packet.data.ray, turned);
+    intersect_packet(near.use, link.link->scene.get(), context.embree, turned);
+    take_hits(turned, static_cast<unsigned>(id), near, packet.data);
+  }
 }
 
 /// Marks the rays that hit a face from inside.
@@ -218,11 +240,49 @@ void RayScene::trace(RayPacket& packet, bool coherent, ObjectId ignored) const {
   trace_once(packet, inside, context);
 }
 
+/// Calls `take` with each finite shape, its frame (null: the world), and the geometry and instance of its hits.
+template <class Take>
+void RayScene::for_each_shape(const Take& take) const {
+  for (std::size_t i = 0; i < statics_->shapes.size(); ++i) {
+    take(*statics_->shapes[i], nullptr, static_cast<unsigned>(i), RTC_INVALID_GEOMETRY_ID);
+  }
+  for (std::size_t id = 0; id < links_.size(); ++id) {
+    if (links_[id] == nullptr) continue;
+    const std::vector<const RayShape*>& shapes = links_[id]->link->shapes;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      take(*shapes[i], &links_[id]->frame, static_cast<unsigned>(i), static_cast<unsigned>(id));
+    }
+  }
+}
+
+void RayScene::collect(FacesInView& view) const {
+  for (std::size_t p = 0; p < planes_.size(); ++p) {
+    view.add(planes_[p].equation, static_cast<unsigned>(p), kPlaneInstance);
+  }
+  for_each_shape([&](const RayShape& shape, const Transform* frame, unsigned geometry, unsigned instance) {
+    view.add(shape, frame, geometry, instance);
+  });
+  view.sort();
+}
+
+void RayScene::collect(FacesInLight& light) const {
+  for_each_shape([&](const RayShape& shape, const Transform* frame, unsigned, unsigned) { light.add(shape, frame); });
+  light.arrange();
+}
+
 void RayScene::occlude(RTCRay16& rays, const RayMask& mask) const {
   QueryContext context = make_context(false, kNoObject);
   occlude_packet(mask.use, statics_->scene.get(), context.embree, rays);
   if (!statics_->housing_shapes.empty()) occlude_packet(mask.use, statics_->housings.get(), context.embree, rays);
-  if (!links_.empty()) occlude_packet(mask.use, movers_.get(), context.embree, rays);
+  if (links_.size() > kFewLinks) return occlude_packet(mask.use, movers_.get(), context.embree, rays);
+  for (const auto& link : links_) {
+    RayMask near;
+    if (link == nullptr || !link->is_near(rays, mask, near)) continue;
+    RTCRayHit16 turned;
+    into_frame(link->frame.rotation, link->frame.position, rays, turned);
+    occlude_packet(near.use, link->link->scene.get(), context.embree, turned.ray);
+    std::copy_n(turned.ray.tfar, kPacket, rays.tfar);
+  }
 }
 
 const RayShape& RayScene::shape(const RayPacket& packet, std::size_t i) const {

@@ -13,6 +13,8 @@
 #include "bubblesim/prepared_scene.hpp"
 #include "bubblesim/scene.hpp"
 #include "bubblesim/world.hpp"
+#include "rays/faces_in_light.hpp"
+#include "rays/faces_in_view.hpp"
 #include "rays/prepared_rays.hpp"
 #include "rays/ray_packet.hpp"
 #include "rays/ray_shape.hpp"
@@ -39,6 +41,9 @@ class RayScene {
   /// Finds the nearest surface for each used ray, ignoring the model `ignored`. `coherent`: all rays start at one
   /// point, and neighbouring rays are nearly parallel.
   void trace(rays::RayPacket& packet, bool coherent, ObjectId ignored = kNoObject) const;
+  /// Adds all shapes, with the ids of their hits.
+  void collect(rays::FacesInView& view) const;
+  void collect(rays::FacesInLight& light) const;
   /// Sets tfar of each ray with a hit to -infinity. Infinite planes cast no shadow.
   void occlude(RTCRay16& rays, const rays::RayMask& mask) const;
 
@@ -65,6 +70,8 @@ class RayScene {
  private:
   struct MovingLink;
 
+  template <class Take>
+  void for_each_shape(const Take& take) const;
   void place(rays::SharedRayModel model);
   void place_links(const rays::RayModel& model);
   void loosen(const World& world, ObjectId link);

@@ -53,17 +53,27 @@ Vector3 origin_in_shape(const RayShape& shape, RTCRayN* rays, unsigned count, un
 }
 
 /// Where ray `i` of a packet enters the shape, as a multiple of the ray's direction; the normal is in the shape's outer
-/// frame. `origin` is its start in the shape's frame.
-std::optional<ShapeHit> meet(const RayShape& shape, const Vector3& origin, RTCRayN* rays, unsigned count, unsigned i) {
+/// frame. `origin` is its start in the shape's frame, into which `turn_back` turns directions.
+std::optional<ShapeHit> meet(const RayShape& shape, const Matrix3& turn_back, const Vector3& origin, RTCRayN* rays,
+                             unsigned count, unsigned i) {
   const Vector3 direction(RTCRayN_dir_x(rays, count, i), RTCRayN_dir_y(rays, count, i), RTCRayN_dir_z(rays, count, i));
   const double length = direction.norm();
-  const Ray ray{origin, shape.turn_back * (direction / length)};
+  const Ray ray{origin, turn_back * (direction / length)};
   std::optional<ShapeHit> hit = intersect(ray, shape.geometry, RTCRayN_tfar(rays, count, i) * length);
   if (!hit) return std::nullopt;
   hit->distance /= length;
   if (hit->distance < RTCRayN_tnear(rays, count, i)) return std::nullopt;
   hit->normal = shape.turn * hit->normal;
   return hit;
+}
+
+void set_hit(const ShapeHit& hit, unsigned geometry, RTCRayN* rays, RTCHitN* hits, unsigned count, unsigned i) {
+  RTCRayN_tfar(rays, count, i) = static_cast<float>(hit.distance);
+  RTCHitN_Ng_x(hits, count, i) = static_cast<float>(hit.normal.x());
+  RTCHitN_Ng_y(hits, count, i) = static_cast<float>(hit.normal.y());
+  RTCHitN_Ng_z(hits, count, i) = static_cast<float>(hit.normal.z());
+  RTCHitN_geomID(hits, count, i) = geometry;
+  RTCHitN_primID(hits, count, i) = 0;
 }
 
 /// Marks the rays of a callback that can meet the shape's bounding sphere. Returns whether any can.
@@ -96,14 +106,9 @@ void intersect_round(const RTCIntersectFunctionNArguments* arguments) {
     if (near.use[i] == 0) continue;
     const Vector3 origin = common_origin ? *common_origin : origin_in_shape(shape, rays, count, i);
     if (!common_origin && is_inside(origin, shape.geometry)) continue;
-    const std::optional<ShapeHit> hit = meet(shape, origin, rays, count, i);
+    const std::optional<ShapeHit> hit = meet(shape, shape.turn_back, origin, rays, count, i);
     if (!hit) continue;
-    RTCRayN_tfar(rays, count, i) = static_cast<float>(hit->distance);
-    RTCHitN_Ng_x(hits, count, i) = static_cast<float>(hit->normal.x());
-    RTCHitN_Ng_y(hits, count, i) = static_cast<float>(hit->normal.y());
-    RTCHitN_Ng_z(hits, count, i) = static_cast<float>(hit->normal.z());
-    RTCHitN_geomID(hits, count, i) = arguments->geomID;
-    RTCHitN_primID(hits, count, i) = 0;
+    set_hit(*hit, arguments->geomID, rays, hits, count, i);
     set_instance(hits, count, i, *arguments->context);
   }
 }
@@ -117,7 +122,7 @@ void occlude_round(const RTCOccludedFunctionNArguments* arguments) {
   for (unsigned i = 0; i < count; ++i) {
     if (near.use[i] == 0) continue;
     const Vector3 origin = origin_in_shape(shape, arguments->ray, count, i);
-    if (is_inside(origin, shape.geometry) || !meet(shape, origin, arguments->ray, count, i)) continue;
+    if (is_inside(origin, shape.geometry) || !meet(shape, shape.turn_back, origin, arguments->ray, count, i)) continue;
     RTCRayN_tfar(arguments->ray, count, i) = -std::numeric_limits<float>::infinity();
   }
 }
@@ -145,10 +150,9 @@ GeometryHandle make_box(const Box& box, const Pose& pose) {
     Eigen::Vector3f::Map(vertex) = place.cast<float>();
     vertex += 3;
   }
-  constexpr std::array<unsigned, 24> kFaces = {0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4, 2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6};
   auto* index = static_cast<unsigned*>(
       rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(unsigned), 6));
-  for (const unsigned corner : kFaces) *index++ = corner;
+  for (const unsigned corner : kBoxFaces) *index++ = corner;
   return geometry;
 }
 
@@ -189,11 +193,60 @@ void keep_hits_from_outside(const RTCFilterFunctionNArguments* arguments) {
   }
 }
 
+void place(RayShape& shape, const Pose& pose) {
+  shape.pose = pose;
+  shape.turn = pose.orientation.toRotationMatrix();
+  shape.turn_back = shape.turn.transpose();
+  shape.middle = pose.position;
+  shape.reach = std::visit(HalfExtent{}, shape.geometry).norm();
+  if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
+    const Vector3& low = mesh->triangles->low;
+    const Vector3& high = mesh->triangles->high;
+    shape.middle = pose * Vector3((low + high) / 2);
+    shape.reach = (high - low).norm() / 2;
+  }
+}
+
 bool is_infinite(const Geometry& geometry) { return std::holds_alternative<Plane>(geometry); }
 
 bool is_traced_as_round(const RayShape& shape) {
   if (std::holds_alternative<Box>(shape.geometry)) return shape.houses_sensor;
   return !std::holds_alternative<Mesh>(shape.geometry);
+}
+
+PlacedRound placed_round(const RayShape& shape, const Transform& place, unsigned geometry, unsigned instance) {
+  const Vector3 offset = shape.turn_back * (shape.middle - shape.pose.position);
+  return {&shape, place, place * offset, geometry, instance};
+}
+
+void meet_round(const PlacedRound& round, const RayMask& mask, RTCRayHit16& packet) {
+  RayMask near;
+  if (!can_meet_sphere(packet.ray, mask.use, round.middle, round.shape->reach, near)) return;
+  const Matrix3 turn_back = round.place.rotation.transpose();
+  const Vector3 start(packet.ray.org_x[0], packet.ray.org_y[0], packet.ray.org_z[0]);
+  const Vector3 origin = turn_back * (start - round.place.position);
+  auto* rays = reinterpret_cast<RTCRayN*>(&packet.ray);
+  for (unsigned i = 0; i < kPacket; ++i) {
+    if (near.use[i] == 0) continue;
+    const std::optional<ShapeHit> hit = meet(*round.shape, turn_back, origin, rays, kPacket, i);
+    if (!hit) continue;
+    set_hit(*hit, round.geometry, rays, reinterpret_cast<RTCHitN*>(&packet.hit), kPacket, i);
+    packet.hit.instID[0][i] = round.instance;
+  }
+}
+
+void shade_round(const PlacedRound& round, const RayMask& mask, RTCRay16& rays) {
+  RayMask near;
+  if (!can_meet_sphere(rays, mask.use, round.middle, round.shape->reach, near)) return;
+  const Matrix3 turn_back = round.place.rotation.transpose();
+  for (unsigned i = 0; i < kPacket; ++i) {
+    if (near.use[i] == 0) continue;
+    const Vector3 start(rays.org_x[i], rays.org_y[i], rays.org_z[i]);
+    const Vector3 origin = turn_back * (start - round.place.position);
+    if (is_inside(origin, round.shape->geometry)) continue;
+    if (!meet(*round.shape, turn_back, origin, reinterpret_cast<RTCRayN*>(&rays), kPacket, i)) continue;
+    rays.tfar[i] = -std::numeric_limits<float>::infinity();
+  }
 }
 
 GeometryHandle make_geometry(const RayShape& shape) {

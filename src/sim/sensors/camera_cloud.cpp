@@ -32,24 +32,45 @@ struct Row {
   std::size_t width;
 };
 
+constexpr std::size_t kBlock = 16;  // pixels at a time
+
 /// Returns the number of points that are NaN.
 BUBBLESIM_SIMD std::size_t fill_row(const Row& row, float least, float most, bool optical, std::uint8_t* points) {
+  constexpr std::size_t kPoint = kCloudFloats * sizeof(float);
   std::size_t missing = 0;
-  for (std::size_t i = 0; i < row.width; ++i) {
-    const float measured = row.depths[i];
-    const bool inside = (measured > least) & (measured < most);
-    const float depth = inside ? measured : std::numeric_limits<float>::quiet_NaN();
-    missing += inside ? 0 : 1;
-    const float right = depth * row.across[i];
-    const float down = depth * row.down;
-    std::uint32_t color = 0;
-    if (row.rgb != nullptr) {
-      const std::uint8_t* rgb = row.rgb + 3 * i;
-      color = static_cast<std::uint32_t>(rgb[0]) << 16U | static_cast<std::uint32_t>(rgb[1]) << 8U | rgb[2];
+  for (std::size_t first = 0; first < row.width; first += kBlock) {
+    const std::size_t count = std::min(kBlock, row.width - first);
+    // x, y, z and the colour. Each point is written field by field: a vector read from fields that were just written
+    // one by one would wait for them.
+    alignas(64) float fields[4][kBlock];
+    for (std::size_t i = 0; i < count; ++i) {
+      const float measured = row.depths[first + i];
+      const bool inside = (measured > least) & (measured < most);
+      const float depth = inside ? measured : std::numeric_limits<float>::quiet_NaN();
+      missing += inside ? 0 : 1;
+      const float right = depth * row.across[first + i];
+      const float down = depth * row.down;
+      fields[0][i] = optical ? right : depth;
+      fields[1][i] = optical ? down : -right;
+      fields[2][i] = optical ? depth : -down;
     }
-    std::array<float, kCloudFloats> point{optical ? right : depth, optical ? down : -right, optical ? depth : -down};
-    std::memcpy(&point[4], &color, sizeof color);  // the lowest byte first, as on all machines that run ROS
-    std::memcpy(points + sizeof point * i, point.data(), sizeof point);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::uint32_t color = 0;
+      if (row.rgb != nullptr) {
+        const std::uint8_t* rgb = row.rgb + 3 * (first + i);
+        color = static_cast<std::uint32_t>(rgb[0]) << 16U | static_cast<std::uint32_t>(rgb[1]) << 8U | rgb[2];
+      }
+      std::uint8_t* point = points + kPoint * (first + i);
+      constexpr std::uint64_t kNone = 0;
+      std::memcpy(point, &fields[0][i], sizeof(float));
+      std::memcpy(point + 4, &fields[1][i], sizeof(float));
+      std::uint64_t last = 0;
+      std::memcpy(&last, &fields[2][i], sizeof(float));
+      std::memcpy(point + 8, &last, sizeof last);
+      last = color;  // the lowest byte first, as on all machines that run ROS
+      std::memcpy(point + 16, &last, sizeof last);
+      std::memcpy(point + 24, &kNone, sizeof kNone);
+    }
   }
   return missing;
 }

@@ -56,15 +56,15 @@ BUBBLESIM_SIMD bool arrive_along(const Vector3& to_light, const Normals& normals
     arrivals.to_light.z[i] = d[2];
   }
   const float f[3] = {static_cast<float>(d[0]), static_cast<float>(d[1]), static_cast<float>(d[2])};
-  float most = 0;
+  int any = 0;
   for (std::size_t i = 0; i < kLanes; ++i) {
     const float cosine = normals.x[i] * f[0] + normals.y[i] * f[1] + normals.z[i] * f[2];
     const bool use = (mask.use[i] != 0) & (cosine > 0);
     arrivals.distance[i] = std::numeric_limits<float>::infinity();
     arrivals.strength[i] = use ? cosine : 0;
-    most = arrivals.strength[i] > most ? arrivals.strength[i] : most;
+    any |= use ? 1 : 0;
   }
-  return most > 0;
+  return any != 0;
 }
 
 namespace {
@@ -107,7 +107,7 @@ BUBBLESIM_SIMD void approach(const double* position, double range, const double*
 }
 
 BUBBLESIM_SIMD bool incline(const Normals& normals, const Mask& mask, Arrivals& arrivals) {
-  float most = 0;
+  int any = 0;
   for (std::size_t i = 0; i < kLanes; ++i) {
     const float cosine = normals.x[i] * static_cast<float>(arrivals.to_light.x[i]) +
                          normals.y[i] * static_cast<float>(arrivals.to_light.y[i]) +
@@ -115,9 +115,9 @@ BUBBLESIM_SIMD bool incline(const Normals& normals, const Mask& mask, Arrivals& 
     const float strength = cosine * arrivals.strength[i];
     const bool use = (mask.use[i] != 0) & (cosine > 0) & (arrivals.strength[i] > 0);
     arrivals.strength[i] = use ? strength : 0;
-    most = arrivals.strength[i] > most ? arrivals.strength[i] : most;
+    any |= use & (strength > 0) ? 1 : 0;
   }
-  return most > 0;
+  return any != 0;
 }
 
 }  // namespace

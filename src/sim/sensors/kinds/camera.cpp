@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bubblesim/sensor_noise.hpp"
+#include "rays/faces_in_view.hpp"
 #include "rays/hit_groups.hpp"
 #include "rays/packet_math.hpp"
 #include "rays/ray_scene.hpp"
@@ -21,7 +22,9 @@ namespace bubblesim {
 namespace {
 
 constexpr float kNoDepth = std::numeric_limits<float>::infinity();
-constexpr std::size_t kRowsPerPart = 8;  // of a large image, on one thread
+constexpr std::size_t kRowsPerTile = 8;  // its columns are those of a packet
+/// Smaller images do not repay the search for faces, in view and in light.
+constexpr std::size_t kPixelsWorthFaces = 1024;
 
 // Positions of rays in a pixel, from the pixel's upper left corner.
 constexpr double kCentre = 0.5;
@@ -44,6 +47,9 @@ class Camera final : public Sensor {
       }
     };
     fill(kCentre, centres_);
+    for (std::size_t column = 0; column <= padded; column += rays::kPacket) {
+      borders_.push_back((description.width / 2.0 - static_cast<double>(column)) / focal_);
+    }
     if (!description.antialias) return;
     for (std::size_t i = 0; i < kQuarters.size(); ++i) fill(kQuarters[i], quarters_[i]);
   }
@@ -59,6 +65,7 @@ class Camera final : public Sensor {
     const RayScene& scene;
     Vector3 eye;
     Matrix3 turn;
+    bool has_faces;
   };
 
   static CameraImage empty_image(const CameraDescription& description) {
@@ -84,16 +91,23 @@ class Camera final : public Sensor {
     context.rays.refresh(context.world);
     if (description_.color) shading_.place_lights(context.world, context.brightness);
     const Pose sensor = context.world.pose(id_);
-    const View view{context.rays, sensor.position, sensor.orientation.toRotationMatrix()};
+    if (description_.color && pixels >= kPixelsWorthFaces) shading_.place_casters(context.rays, sensor.position);
+    const View view{context.rays, sensor.position, sensor.orientation.toRotationMatrix(),
+                    !is_parallel_ && pixels >= kPixelsWorthFaces};
+    if (view.has_faces) {
+      faces_.start({view.eye, view.turn, description_.near, description_.far, description_.width / 2.0 / focal_,
+                    description_.height / 2.0 / focal_});
+      context.rays.collect(faces_);
+    }
     Noise noise(description_.noise, context, id_);
     colors_.resize(description_.color && noise.active() ? image.rgb.size() : 0);
-    const auto rows = static_cast<std::size_t>(description_.height);
-    const std::size_t length = image.depth.size() < kRaysWorthThreads ? rows : kRowsPerPart;
-    WorkerPool::shared().run((rows + length - 1) / length, [&](std::size_t part) {
-      for (std::size_t row = part * length; row < std::min(rows, (part + 1) * length); ++row) {
-        measure_row(view, row, image);
-      }
-    });
+    const std::size_t strips = (static_cast<std::size_t>(description_.height) + kRowsPerTile - 1) / kRowsPerTile;
+    const auto measure = [&](std::size_t strip) { measure_strip(view, strip * kRowsPerTile, image); };
+    if (pixels < kRaysWorthThreads) {
+      for (std::size_t strip = 0; strip < strips; ++strip) measure(strip);
+    } else {
+      WorkerPool::shared().run(strips, measure);
+    }
     // The values of the noise follow from each other: one thread, in the order of the pixels.
     for (std::size_t i = 0; i < colors_.size(); ++i) image.rgb[i] = level(noise(colors_[i]));
     if (description_.color || !noise.active()) return;
@@ -102,46 +116,63 @@ class Camera final : public Sensor {
     }
   }
 
-  void measure_row(const View& view, std::size_t row, CameraImage& image) {
-    const auto width = static_cast<std::size_t>(description_.width);
+  void measure_strip(const View& view, std::size_t first_row, CameraImage& image) {
+    const std::size_t end = std::min(first_row + kRowsPerTile, static_cast<std::size_t>(description_.height));
+    std::vector<rays::Tile> tiles;
+    if (view.has_faces) {
+      faces_.divide(up_of(static_cast<double>(end)), up_of(static_cast<double>(first_row)), borders_, tiles);
+    }
     rays::RayPacket packet;
-    for (std::size_t first = 0; first < width; first += rays::kPacket) {
-      const std::size_t count = std::min(rays::kPacket, width - first);
-      const std::size_t start = row * width + first;
-      trace(view, static_cast<double>(row) + kCentre, &centres_[first], count, packet);
-      const rays::HitGroups groups(packet);
-      measure_depth(view.scene, packet, groups, count, &image.depth[start], &image.objects[start]);
-      if (!description_.color) continue;
-      lanes::Colors colors{};
-      if (description_.antialias) {
-        add_quarters(view, row, first, count, colors);
-      } else {
-        shading_.add(view.scene, packet, groups, 1, colors);
-      }
-      if (colors_.empty()) {
-        lanes::to_bytes(colors, count, &image.rgb[3 * start]);
-      } else {
-        keep(colors, count, &colors_[3 * start]);
+    // Surfaces nearer than the near plane are clipped, as by a graphics card.
+    packet.start(view.eye, static_cast<float>(description_.near), static_cast<float>(description_.far), rays::kPacket);
+    for (std::size_t row = first_row; row < end; ++row) {
+      for (std::size_t i = 0; i + 1 < borders_.size(); ++i) {
+        measure_pixels(view, view.has_faces ? &tiles[i] : nullptr, row, i * rays::kPacket, packet, image);
       }
     }
   }
 
-  void add_quarters(const View& view, std::size_t row, std::size_t first, std::size_t count, lanes::Colors& colors) {
-    rays::RayPacket packet;
+  void measure_pixels(const View& view, const rays::Tile* tile, std::size_t row, std::size_t first,
+                      rays::RayPacket& packet, CameraImage& image) {
+    const auto width = static_cast<std::size_t>(description_.width);
+    const std::size_t count = std::min(rays::kPacket, width - first);
+    const std::size_t start = row * width + first;
+    trace(view, tile, static_cast<double>(row) + kCentre, &centres_[first], count, packet);
+    const rays::HitGroups groups(packet);
+    measure_depth(view.scene, packet, groups, count, &image.depth[start], &image.objects[start]);
+    if (!description_.color) return;
+    lanes::Colors colors{};
+    if (description_.antialias) {
+      add_quarters(view, tile, row, first, count, packet, colors);
+    } else {
+      shading_.add(view.scene, packet, groups, 1, colors);
+    }
+    if (colors_.empty()) {
+      lanes::to_bytes(colors, count, &image.rgb[3 * start]);
+    } else {
+      keep(colors, count, &colors_[3 * start]);
+    }
+  }
+
+  void add_quarters(const View& view, const rays::Tile* tile, std::size_t row, std::size_t first, std::size_t count,
+                    rays::RayPacket& packet, lanes::Colors& colors) {
     for (const double down : kQuarters) {
       for (const std::vector<double>& left : quarters_) {
-        trace(view, static_cast<double>(row) + down, &left[first], count, packet);
+        trace(view, tile, static_cast<double>(row) + down, &left[first], count, packet);
         shading_.add(view.scene, packet, rays::HitGroups(packet), 0.25F, colors);
       }
     }
   }
 
+  double up_of(double down) const { return (description_.height / 2.0 - down) / focal_; }
+
   /// Traces rays `down` pixels from the upper border, and `left` from the optical axis, as parts of the focal length,
-  /// or in m for parallel rays. Directions have length 1 along the camera's axis: distances are depths.
-  void trace(const View& view, double down, const double* left, std::size_t count, rays::RayPacket& packet) const {
-    // Surfaces nearer than the near plane are clipped, as by a graphics card.
-    packet.start(view.eye, static_cast<float>(description_.near), static_cast<float>(description_.far), count);
-    const double up = (description_.height / 2.0 - down) / focal_;
+  /// or in m for parallel rays. Directions have length 1 along the camera's axis: distances are depths. `tile`: where
+  /// they are, null without faces.
+  void trace(const View& view, const rays::Tile* tile, double down, const double* left, std::size_t count,
+             rays::RayPacket& packet) const {
+    packet.restart(static_cast<float>(description_.far), count);
+    const double up = up_of(down);
     const auto& turn = view.turn;
     if (is_parallel_) {
       for (std::size_t i = 0; i < rays::kPacket; ++i) {
@@ -152,7 +183,11 @@ class Camera final : public Sensor {
     }
     const Vector3 base(turn(0, 0) + up * turn(0, 2), turn(1, 0) + up * turn(1, 2), turn(2, 0) + up * turn(2, 2));
     rays::aim(packet.data.ray, base, {turn(0, 1), turn(1, 1), turn(2, 1)}, left);
-    view.scene.trace(packet, true);
+    if (tile == nullptr || tile->needs_rays) {
+      view.scene.trace(packet, true);
+    } else {
+      faces_.rasterize(*tile, up, left, packet);
+    }
   }
 
   static void measure_depth(const RayScene& scene, const rays::RayPacket& packet, const rays::HitGroups& groups,
@@ -177,11 +212,13 @@ class Camera final : public Sensor {
   CameraDescription description_;
   ObjectId id_;
   Shading shading_;
+  rays::FacesInView faces_;
   bool is_parallel_;
   double focal_;                 // in pixels; of parallel rays in pixels per m
   std::vector<double> centres_;  // of the columns, left of the axis, as parts of the focal length
   std::array<std::vector<double>, 2> quarters_;
-  std::vector<float> colors_;  // of an image before its noise; three per pixel
+  std::vector<double> borders_;  // of the packets, likewise
+  std::vector<float> colors_;    // of an image before its noise; three per pixel
 };
 
 }  // namespace
