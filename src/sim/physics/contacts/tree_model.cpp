@@ -182,8 +182,9 @@ void TreeModel::note_what_swings() {
 
 template <class RateOf>
 bool TreeModel::any_turns_too_far(double step, const RateOf& rate_of) const {
+  const double most = most_turn_ / step;
   return std::any_of(swinging_.begin(), swinging_.end(),
-                     [&](int link) { return rate_of(link).norm() * step > most_turn_; });
+                     [&](int link) { return rate_of(link).squaredNorm() > most * most; });
 }
 
 bool TreeModel::turns_too_far(double step) const {
