@@ -51,7 +51,7 @@ bool can_shade(const LightBlock& face, const LightBlock& places) {
 
 }  // namespace
 
-void FacesInLight::start(const Vector3& to_light, const Vector3& middle) {
+void FacesInLight::start(const Vector3& to_light, const Vector3& middle, std::size_t pixels) {
   const Vector3 any = std::abs(to_light.x()) < 0.5 ? Vector3::UnitX() : Vector3::UnitY();
   const Vector3 across = to_light.cross(any).normalized();
   turn_ << across.transpose(), to_light.cross(across).transpose(), to_light.transpose();
@@ -65,12 +65,18 @@ void FacesInLight::start(const Vector3& to_light, const Vector3& middle) {
   rounds_.clear();
   round_bounds_.clear();
   others_.clear();
+  most_triangles_ = most_triangles(pixels);
   triangles_ = 0;
+  is_whole_ = true;
 }
 
 void FacesInLight::add(const RayShape& shape, const Transform* frame) {
   if (!shape.cast_shadows) return;
   const Vector3 middle = turn_ * ((frame != nullptr ? *frame * shape.middle : shape.middle) - middle_);
+  if (std::max(std::abs(middle.x()), std::abs(middle.y())) - shape.reach > kReach) {
+    is_whole_ = false;
+    return;
+  }
   LightBlock bounds;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     bounds.low[axis] = middle[axis] - shape.reach;
@@ -86,7 +92,7 @@ void FacesInLight::add(const RayShape& shape, const Transform* frame) {
     for_each_face(*box, place, [&](const Vector3* corners, std::size_t count, std::size_t) {
       if ((corners[1] - corners[0]).cross(corners[2] - corners[0]).z() > 0) add_face(corners, count);
     });
-  } else if (mesh != nullptr && triangles_ + triangles <= kMostTriangles) {
+  } else if (mesh != nullptr && triangles_ + triangles <= most_triangles_) {
     triangles_ += triangles;
     for_each_face(*mesh->triangles, place,
                   [&](const Vector3* corners, std::size_t count, std::size_t) { add_face(corners, count); });
@@ -133,7 +139,7 @@ void FacesInLight::arrange() {
       }
     }
   }
-  is_whole_ = reach < kReach;
+  is_whole_ = is_whole_ && reach < kReach;
   half_ = (is_whole_ ? std::max(reach, kLeastReach) : kReach) + kMargin;
   cells_.assign(kCells * kCells, {});
   for (std::size_t face = 0; face < faces_.size(); ++face) {
@@ -187,7 +193,7 @@ void FacesInLight::change_cells(const LightBlock& block, const Change& change) {
 }
 
 bool FacesInLight::shade(RTCRay16& rays, const RayMask& mask) const {
-  if (faces_.empty() && rounds_.empty() && others_.empty()) return true;
+  if (is_whole_ && faces_.empty() && rounds_.empty() && others_.empty()) return true;
   LightPlaces places;
   place_in_light(frame_, rays, places);
   const LightBlock block = block_around(places, mask);

@@ -18,8 +18,8 @@ namespace bubblesim::rays {
 
 class FacesInLight {
  public:
-  /// Forgets all shapes. `to_light`: unit vector. `middle`: of the grid, near what is visible.
-  void start(const Vector3& to_light, const Vector3& middle);
+  /// Forgets all shapes. `to_light`: unit vector. `middle`: of the grid, near what is visible. `pixels`: of the image.
+  void start(const Vector3& to_light, const Vector3& middle, std::size_t pixels);
 
   /// Adds a shape in a frame (null: the world).
   void add(const RayShape& shape, const Transform* frame);
@@ -65,6 +65,7 @@ class FacesInLight {
   std::vector<LightBlock> round_bounds_;
   std::vector<LightBlock> others_;
   std::vector<Cell> cells_;
+  std::size_t most_triangles_ = 0;
   std::size_t triangles_ = 0;
 };
 

@@ -89,7 +89,7 @@ void FacesInView::add(const RayShape& shape, const Transform* frame, unsigned ge
   if (const auto* box = std::get_if<Box>(&shape.geometry)) return for_each_face(*box, place, take);
   if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
     const std::size_t triangles = mesh->triangles->triangles.size();
-    if (triangles_ + triangles <= kMostTriangles) {
+    if (triangles_ + triangles <= most_triangles(view_.pixels)) {
       triangles_ += triangles;
       return for_each_face(*mesh->triangles, place, take);
     }

@@ -23,6 +23,7 @@ struct Pinhole {
   double far;    ///< m along x
   double left;   ///< of the left border, at 1 m; the right one is opposite
   double up;     ///< of the upper border, at 1 m
+  std::size_t pixels;
 };
 
 /// Part of an image plane, at 1 m.

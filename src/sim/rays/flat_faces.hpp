@@ -2,6 +2,7 @@
 // The flat faces of boxes and meshes.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -13,8 +14,8 @@
 
 namespace bubblesim::rays {
 
-/// The most triangles of meshes that are rasterized; rays are faster among more.
-constexpr std::size_t kMostTriangles = 4096;
+/// The most triangles of meshes that are rasterized for an image of `pixels`; rays are faster among more.
+inline std::size_t most_triangles(std::size_t pixels) { return std::min<std::size_t>(4096, pixels / 64); }
 
 /// Calls take(corners, their number, number of the face) for each face of a box at `place`. The corners run
 /// counter-clockwise from outside; those that faces share are equal to the last bit.

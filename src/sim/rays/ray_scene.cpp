@@ -255,6 +255,12 @@ void RayScene::for_each_shape(const Take& take) const {
   }
 }
 
+std::size_t RayScene::shape_count() const {
+  std::size_t count = planes_.size() + statics_->shapes.size();
+  for (const auto& link : links_) count += link != nullptr ? link->link->shapes.size() : 0;
+  return count;
+}
+
 void RayScene::collect(FacesInView& view) const {
   for (std::size_t p = 0; p < planes_.size(); ++p) {
     view.add(planes_[p].equation, static_cast<unsigned>(p), kPlaneInstance);

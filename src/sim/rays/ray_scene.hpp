@@ -41,6 +41,8 @@ class RayScene {
   /// Finds the nearest surface for each used ray, ignoring the model `ignored`. `coherent`: all rays start at one
   /// point, and neighbouring rays are nearly parallel.
   void trace(rays::RayPacket& packet, bool coherent, ObjectId ignored = kNoObject) const;
+  /// The number of all shapes.
+  std::size_t shape_count() const;
   /// Adds all shapes, with the ids of their hits.
   void collect(rays::FacesInView& view) const;
   void collect(rays::FacesInLight& light) const;

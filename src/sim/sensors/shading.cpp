@@ -21,13 +21,13 @@ void Shading::place_lights(const World& world, double brightness) {
   has_casters_ = false;
 }
 
-void Shading::place_casters(const RayScene& scene, const Vector3& eye) {
+void Shading::place_casters(const RayScene& scene, const Vector3& eye, std::size_t pixels) {
   if (!environment_.shadows) return;
   has_casters_ = true;
   casters_.resize(lights_.size());
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     if (lights_[i].kind != LightKind::kDirectional || !lights_[i].cast_shadows) continue;
-    casters_[i].start(-lights_[i].direction.normalized(), eye);
+    casters_[i].start(-lights_[i].direction.normalized(), eye, pixels);
     scene.collect(casters_[i]);
   }
 }

@@ -23,9 +23,9 @@ class Shading {
   /// Collects the scene's lights and those of links, at their current poses, all `brightness` times as bright.
   void place_lights(const World& world, double brightness);
 
-  /// Prepares the shadows of parallel light near the eye, which then need few rays. Call it after place_lights(). Worth
-  /// its time from about a thousand pixels on.
-  void place_casters(const RayScene& scene, const Vector3& eye);
+  /// Prepares the shadows of parallel light near the eye of an image of `pixels`, which then need few rays. Call it
+  /// after place_lights().
+  void place_casters(const RayScene& scene, const Vector3& eye, std::size_t pixels);
 
   /// Adds `weight` times the colours of the rays of a traced packet to `sum`.
   void add(const RayScene& scene, const rays::RayPacket& packet, const rays::HitGroups& groups, float weight,

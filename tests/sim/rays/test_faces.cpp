@@ -19,12 +19,14 @@ using rays::kPacket;
 
 constexpr int kColumns = 160;
 constexpr int kRows = 120;
-constexpr double kFocal = 100;  // pixels
+constexpr std::size_t kPixels = 640 * 480;  // for as many triangles as there may be
+constexpr double kFocal = 100;              // pixels
 constexpr std::size_t kRowsOfTile = 8;
 constexpr double kBesideEdge = 1e-3;  // of a pixel: rays this far apart see the same, or an edge is between them
 
 rays::Pinhole pinhole(const Pose& pose, double near = 0.05, double far = 100) {
-  return {pose.position, pose.orientation.toRotationMatrix(), near, far, kColumns / 2.0 / kFocal, kRows / 2.0 / kFocal};
+  return {pose.position, pose.orientation.toRotationMatrix(), near, far, kColumns / 2.0 / kFocal, kRows / 2.0 / kFocal,
+          kPixels};
 }
 
 /// Both ways to see sixteen pixels of a row.
@@ -249,7 +251,7 @@ void expect_shadows_as_by_rays(const Traced& traced, std::mt19937& random, const
   std::uniform_real_distribution<double> place(-12, 12);
   std::uniform_real_distribution<double> height(0, 10);
   rays::FacesInLight light;
-  light.start(to_light, Vector3::Zero());
+  light.start(to_light, Vector3::Zero(), kPixels);
   traced.rays.collect(light);
   int known = 0;
   int shaded = 0;
@@ -297,7 +299,7 @@ bool is_shaded(const rays::FacesInLight& light, const Vector3& place, bool& is_k
 TEST(FacesInLight, ShadeNothingFarFromAllShapes) {
   const Traced near(scene({still(model("Roof", link_with(Box{{2, 2, 1}}), at(3, 0, 5)))}));
   rays::FacesInLight light;
-  light.start(Vector3::UnitZ(), Vector3::Zero());
+  light.start(Vector3::UnitZ(), Vector3::Zero(), kPixels);
   near.rays.collect(light);
   bool is_known = false;
   EXPECT_FALSE(is_shaded(light, {500, 0, 0}, is_known));
@@ -309,7 +311,7 @@ TEST(FacesInLight, ShadeNothingFarFromAllShapes) {
 TEST(FacesInLight, LeaveWhatIsFarInALargeSceneToRays) {
   const Traced wide(scene({still(model("Roof", link_with(Box{{2, 2, 1}}), at(100, 0, 5)))}));
   rays::FacesInLight light;
-  light.start(Vector3::UnitZ(), Vector3::Zero());
+  light.start(Vector3::UnitZ(), Vector3::Zero(), kPixels);
   wide.rays.collect(light);
   bool is_known = true;
   is_shaded(light, {100, 0, 0}, is_known);
@@ -326,7 +328,7 @@ TEST(FacesInLight, PassShapesThatCastNoShadow) {
   roof.links[0].visuals.push_back(glass);
   const Traced traced(scene({roof}));
   rays::FacesInLight light;
-  light.start(Vector3::UnitZ(), Vector3::Zero());
+  light.start(Vector3::UnitZ(), Vector3::Zero(), kPixels);
   traced.rays.collect(light);
   bool is_known = false;
   EXPECT_FALSE(is_shaded(light, {0, 0, 0}, is_known));

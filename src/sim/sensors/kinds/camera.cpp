@@ -23,8 +23,9 @@ namespace {
 
 constexpr float kNoDepth = std::numeric_limits<float>::infinity();
 constexpr std::size_t kRowsPerTile = 8;  // its columns are those of a packet
-/// Smaller images do not repay the search for faces, in view and in light.
-constexpr std::size_t kPixelsWorthFaces = 1024;
+/// Smaller images do not repay the search for faces in view, nor do those with fewer pixels than the scene has shapes.
+constexpr std::size_t kPixelsWorthFaces = 2048;
+constexpr std::size_t kPixelsPerCaster = 48;  // likewise for each shape, of faces in light
 
 // Positions of rays in a pixel, from the pixel's upper left corner.
 constexpr double kCentre = 0.5;
@@ -91,12 +92,15 @@ class Camera final : public Sensor {
     context.rays.refresh(context.world);
     if (description_.color) shading_.place_lights(context.world, context.brightness);
     const Pose sensor = context.world.pose(id_);
-    if (description_.color && pixels >= kPixelsWorthFaces) shading_.place_casters(context.rays, sensor.position);
+    const std::size_t shapes = context.rays.shape_count();
+    if (description_.color && pixels >= std::max(kPixelsWorthFaces, kPixelsPerCaster * shapes)) {
+      shading_.place_casters(context.rays, sensor.position, pixels);
+    }
     const View view{context.rays, sensor.position, sensor.orientation.toRotationMatrix(),
-                    !is_parallel_ && pixels >= kPixelsWorthFaces};
+                    !is_parallel_ && pixels >= std::max(kPixelsWorthFaces, shapes)};
     if (view.has_faces) {
       faces_.start({view.eye, view.turn, description_.near, description_.far, description_.width / 2.0 / focal_,
-                    description_.height / 2.0 / focal_});
+                    description_.height / 2.0 / focal_, pixels});
       context.rays.collect(faces_);
     }
     Noise noise(description_.noise, context, id_);
