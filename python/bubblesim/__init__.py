@@ -16,6 +16,7 @@ from pkgutil import extend_path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    __version__: str
     from bubblesim._core import (
         AirPressureReading,
         AltimeterReading,
@@ -130,7 +131,8 @@ def __getattr__(name: str) -> Any:
             if error.name == "bubblesim._core":
                 raise ImportError(_why_not_loaded()) from None
             raise
-    if name not in __all__ and not name.endswith("Reading"):  # kinds of sensors that were added have such classes
+    # Kinds of sensors that were added have classes with this ending.
+    if name not in (*__all__, "__version__") and not name.endswith("Reading"):
         import difflib
 
         from bubblesim.messages.names import did_you_mean, unknown_attribute

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from bubblesim import __version__
 from cli_support import bubblesim
 from ros_support import built
 
@@ -24,7 +25,7 @@ def test_help_names_all_commands_and_exit_codes() -> None:
 
 def test_it_has_the_version_of_the_node() -> None:
     node = subprocess.run([built("sim"), "--version"], capture_output=True, text=True, check=True)
-    assert bubblesim("--version").stdout == node.stdout
+    assert bubblesim("--version").stdout == node.stdout == f"bubblesim {__version__}\n"
 
 
 @pytest.mark.parametrize("command", COMMANDS)
