@@ -190,9 +190,9 @@ std::vector<ObjectId> World::fallen_models() const {
   std::vector<ObjectId> fallen;
   const Vector3 down = state_->gravity.normalized();
   if (down == Vector3::Zero()) return fallen;
-  for (const auto& model : state_->models) {
+  for (const PlacedModel* model : state_->moving.awake) {  // those that sleep lie on something
     const bool all_below = std::all_of(model->links.begin(), model->links.end(), [&](const Link& link) {
-      return link.body != nullptr && to_vector(dBodyGetPosition(link.body.get())).dot(down) > state_->bottom + kFall;
+      return to_vector(dBodyGetPosition(link.body.get())).dot(down) > state_->bottom + kFall;
     });
     if (all_below) fallen.push_back(model->object);
   }
