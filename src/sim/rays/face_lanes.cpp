@@ -129,7 +129,8 @@ BUBBLESIM_SIMD void mark_below(const LightFace& face, const LightPlaces& places,
     const double cd = c < d ? c : d;
     const double inner = ab < cd ? ab : cd;
     const double height = face.height.constant + face.height.x * x + face.height.y * y;
-    below[i] = (inner >= 0) & (height > places.along[2][i]) ? 1 : below[i];
+    const bool is_below = (inner >= 0) & (height > places.along[2][i]);
+    below[i] = is_below ? 1 : below[i];
   }
 }
 
