@@ -9,7 +9,7 @@ import pytest
 
 import bubblesim
 from bubblesim.gazebo_plugins.robots import GazeboPlugins
-from ros_peer import Peer
+from ros_peer import Messages, Peer
 
 CRANE = (
     '<model name="crane"><link name="hook"><pose>0 0 3 0 0 0</pose></link>'
@@ -78,20 +78,13 @@ def peer(run: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory) -> P
 
 
 def test_messages_detach_and_attach(peer: Peer) -> None:
-    states: list[str] = []
-
-    def becomes(wanted: str) -> Callable[[Any], bool]:
-        def holds(message: Any) -> bool:
-            states.append(message["data"])
-            return bool(message["data"] == wanted)
-
-        return holds
-
+    states = Messages(peer, "/hook/state", "std_msgs/String")
+    states.next(lambda m: m["data"] == "attached", "the state of now")
     peer.publish("/hook/release", "std_msgs/Empty", {})
-    peer.wait_for("/hook/state", "std_msgs/String", becomes("detached"), "the load to be detached")
+    states.next(lambda m: m["data"] == "detached", "the load to be detached")
     peer.wait_for("/pose", "nav_msgs/Odometry", lambda m: m["pose"]["pose"]["position"]["z"] < 1.9, "the load to fall")
     peer.publish("/hook/attach", "std_msgs/Empty", {})
-    peer.wait_for("/hook/state", "std_msgs/String", becomes("attached"), "the load to be attached")
+    states.next(lambda m: m["data"] == "attached", "the load to be attached")
     peer.wait_for(
         "/pose", "nav_msgs/Odometry", lambda m: abs(m["twist"]["twist"]["linear"]["z"]) < 1e-3, "the load to hang"
     )

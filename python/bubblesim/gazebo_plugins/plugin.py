@@ -114,9 +114,10 @@ class Plugin:
             return name.lstrip("/")
         return f"{self.namespace}/{name}"
 
-    def advertise(self, topic: str, message_type: str, queue_size: int) -> int:
-        """Advertise a topic until the plugin is closed."""
-        publisher: int = self.bridge.advertise(self.topic(topic), message_type, queue_size)
+    def advertise(self, topic: str, message_type: str, queue_size: int, *, latch: bool = False) -> int:
+        """Advertise a topic until the plugin is closed; with `latch`, those who come later get the last message."""
+        qos = _core.Qos(queue_size, transient_local=latch)
+        publisher: int = self.bridge.advertise(self.topic(topic), message_type, qos)
         self.context.endpoints.append(lambda: self.bridge.shutdown_publisher(publisher))
         return publisher
 

@@ -13,7 +13,8 @@ _OWN = "__model__"
 
 
 class DetachableJoint(Plugin):
-    """Messages are std_msgs/Empty; the state, "attached" or "detached", is published when it changes.
+    """Messages are std_msgs/Empty; the state, "attached" or "detached", is published when it changes, and kept for
+    those who come later.
 
     The child is held where it is when it is attached. It is looked for until it is there: its model may be added later.
     """
@@ -40,7 +41,7 @@ class DetachableJoint(Plugin):
         self._published = ""  # the state that was published
         self._publisher = -1
         if self.bridge is not None:
-            self._publisher = self.advertise(state_topic, "std_msgs/String", 10)
+            self._publisher = self.advertise(state_topic, "std_msgs/String", 10, latch=True)
         self.subscribe(detach_topic, "std_msgs/Empty", self._detach)
         self.subscribe(attach_topic, "std_msgs/Empty", self._attach)
 
