@@ -187,8 +187,9 @@ void ContactSolver::add_point(const FoundContact& found, std::size_t index, cons
     };
     const double incoming = now(body_b, lever_b) - now(body_a, lever_a);
     const auto number = static_cast<int>(island_.points.size()) - 1;
-    impacts_.add({number, -incoming, surface.bounce, surface.bounce_vel, motion, point.target});
-    if (incoming > surface.bounce_vel) point.target = std::max(point.target, surface.bounce * incoming + motion);
+    const Impact impact{number, -incoming, surface.bounce, surface.bounce_vel, motion, point.target};
+    impacts_.add(impact);
+    point.target = impact.target_alone();
   }
   const Vector3 force = n * start.normal + start.friction;
   // A rigid contact yields only to what it did not bear before: a stack does not sink.

@@ -162,8 +162,9 @@ void TreeSolver::add_point(const TreeBody& a, const TreeBody& b, const FoundPair
   if ((surface.mode & dContactBounce) != 0) {
     const dReal* at = found.contact.geom.pos;
     const double incoming = n.dot(velocity_at(*pair.second->link, at) - velocity_at(*pair.first->link, at));
-    rows_.add_impact({rows_.count(), -incoming, surface.bounce, surface.bounce_vel, motion, target});
-    if (incoming > surface.bounce_vel) target = std::max(target, surface.bounce * incoming + motion);
+    const Impact impact{rows_.count(), -incoming, surface.bounce, surface.bounce_vel, motion, target};
+    rows_.add_impact(impact);
+    target = impact.target_alone();
   }
   // A rigid contact yields only to what it did not bear before: a robot does not sink.
   if (!found.has_own_correction) target += cfm * std::max(start.normal, 0.0);

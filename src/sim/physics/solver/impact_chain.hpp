@@ -24,6 +24,10 @@ struct Impact {
   double least = 0;        ///< m/s, that the substep has to reach without a bounce, as where bodies overlap
   double impulse = 0;      ///< N s, of the chain
 
+  /// What the substep has to reach after this impact alone, by Newton's restitution, m/s.
+  double target_alone() const {
+    return -separation > threshold ? std::max(least, -restitution * separation + motion) : least;
+  }
   /// What the substep has to reach after the chain, m/s.
   double target() const { return std::max(least, separation + motion); }
 };
