@@ -13,13 +13,13 @@ BUBBLESIM_SIMD void Columns::set_weighted_square(const Columns& a, const double*
       Four sums[4] = {};
       const double* column = a.values_.data();
       for (int k = 0; k < a.columns_; ++k, column += a.length_) {
-        const Four factors = weights[k] * four_at(column + c);
-        const Four rows = four_at(column + r);
+        const Four factors = weights[k] * load_four(column + c);
+        const Four rows = load_four(column + r);
         for (int j = 0; j < 4; ++j) sums[j] += factors[j] * rows;
       }
       double* const to = values_.data() + c * length_ + r;
       for (std::size_t j = 0; j < 4 && c + j < static_cast<std::size_t>(columns_); ++j) {
-        four_at(to + j * length_) = sums[j];
+        store_four(to + j * length_, sums[j]);
       }
     }
   }

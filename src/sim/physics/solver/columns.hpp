@@ -5,25 +5,22 @@
 #include <cstddef>
 #include <vector>
 
+#include "physics/solver/four.hpp"
+
 namespace bubblesim {
-
-/// Four numbers side by side in memory. GCC and clang compute with all of them at once, with two or one instruction:
-/// for functions that are compiled for several instruction sets (scene/simd.hpp).
-using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
-
-inline Four& four_at(double* numbers) { return *reinterpret_cast<Four*>(numbers); }
-inline const Four& four_at(const double* numbers) { return *reinterpret_cast<const Four*>(numbers); }
 
 /// Adds a multiple of numbers to others; `length` is a multiple of four.
 inline void add_multiple(double* to, double factor, const double* from, std::size_t length) {
-  for (std::size_t i = 0; i < length; i += 4) four_at(to + i) += factor * four_at(from + i);
+  for (std::size_t i = 0; i < length; i += 4) {
+    store_four(to + i, load_four(to + i) + factor * load_four(from + i));
+  }
 }
 
 /// The sum of products, in an order that does not depend on the instruction set.
 inline double dot(const double* a, const double* b, std::size_t count) {
   Four sums = {};
   std::size_t i = 0;
-  for (; i + 4 <= count; i += 4) sums += four_at(a + i) * four_at(b + i);
+  for (; i + 4 <= count; i += 4) sums += load_four(a + i) * load_four(b + i);
   double rest = 0;
   for (; i < count; ++i) rest += a[i] * b[i];
   return (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest;

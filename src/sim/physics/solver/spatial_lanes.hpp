@@ -6,12 +6,7 @@
 #include <Eigen/Core>
 
 #include "bubblesim/math.hpp"
-#include "physics/solver/columns.hpp"
-
-// Functions that return groups must become part of their callers: the instruction sets return groups differently, of
-// which GCC and clang warn also where nothing is returned in the end.
-#define BUBBLESIM_INLINE __attribute__((always_inline)) inline
-#pragma GCC diagnostic ignored "-Wpsabi"
+#include "physics/solver/four.hpp"
 
 namespace bubblesim {
 
