@@ -12,8 +12,8 @@ from ros_support import REPOSITORY
 
 CONTROL = (REPOSITORY / "debian" / "control").read_text()
 LISTS = REPOSITORY / "scripts" / "environment"
-TOOLS = {"debhelper-compat", "dh-python", "catkin", "python3-venv", "python3-numpy"}  # of packaging, or of running
-PROGRAMS_OF_WORKSPACES = {"catkin-tools"}
+TOOLS = {"debhelper-compat", "dh-python", "catkin", "python3-venv", "python3-numpy"}  # of packaging
+PROGRAMS_OF_WORKSPACES = {"catkin-tools", "python3-venv", "python3-numpy"}
 
 
 def field(name: str) -> set[str]:
@@ -23,18 +23,15 @@ def field(name: str) -> set[str]:
     return {re.sub(r" \(.*\)", "", line.strip(" ,")) for line in found[1].splitlines()}
 
 
-def listed(name: str, section: str | None = None) -> set[str]:
-    """Return the packages of a list, or of the part of it under a heading."""
-    text = (LISTS / name).read_text()
-    if section is not None:
-        text = text[text.index(f"# {section}") :].split("\n\n")[0]
-    return {line for line in text.splitlines() if line and not line.startswith("#")}
+def listed(name: str) -> set[str]:
+    """Return the packages of a list."""
+    return {line for line in (LISTS / name).read_text().splitlines() if not line.startswith("#")}
 
 
 def test_it_is_built_with_what_a_workspace_is_built_with() -> None:
     ros2 = " | ".join(listed(f"packages-ros2-debian-{number}.txt").pop() for number in (12, 13))
     maps = {name for name in listed("packages-maps.txt") if name.endswith("-dev")}
-    building = listed("packages.txt", "Building") - PROGRAMS_OF_WORKSPACES
+    building = listed("packages-building.txt") - PROGRAMS_OF_WORKSPACES
     assert field("Build-Depends") - TOOLS == building | maps | {ros2}
 
 

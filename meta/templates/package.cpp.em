@@ -8,6 +8,7 @@
 #include "message_tables.hpp"
 
 namespace bubblesim::messages::tables {
+namespace @(prefix)_@(package)_rows {
 namespace {
 @[for type in types]@
 
@@ -46,8 +47,11 @@ constexpr ServiceRow kServices[] = {
 };
 @[end if]@
 
-}  // namespace
+constexpr PackageTable kTable = {@("kMessages" if messages else "{}"), @("kServices" if services else "{}")};
 
-PackageTable @(prefix)_@(package)() { return {@("kMessages" if messages else "{}"), @("kServices" if services else "{}")}; }
+}  // namespace
+}  // namespace @(prefix)_@(package)_rows
+
+PackageTable @(prefix)_@(package)() { return @(prefix)_@(package)_rows::kTable; }
 
 }  // namespace bubblesim::messages::tables
