@@ -37,20 +37,7 @@ class Camera final : public Sensor {
         shading_(environment),
         is_parallel_(description.orthographic_width > 0),
         focal_(description.width /
-               (is_parallel_ ? description.orthographic_width : 2 * std::tan(description.horizontal_fov / 2))) {
-    const std::size_t padded = columns_per_packet(static_cast<std::size_t>(description.width));
-    const auto fill = [&](double part, std::vector<double>& left) {
-      for (std::size_t column = 0; column < padded; ++column) {
-        left.push_back((description.width / 2.0 - (static_cast<double>(column) + part)) / focal_);
-      }
-    };
-    fill(kCentre, centres_);
-    for (std::size_t column = 0; column <= padded; column += rays::kPacket) {
-      borders_.push_back((description.width / 2.0 - static_cast<double>(column)) / focal_);
-    }
-    if (!description.antialias) return;
-    for (std::size_t i = 0; i < kQuarters.size(); ++i) fill(kQuarters[i], quarters_[i]);
-  }
+               (is_parallel_ ? description.orthographic_width : 2 * std::tan(description.horizontal_fov / 2))) {}
 
   std::size_t ray_count() const override {
     const auto pixels = static_cast<std::size_t>(description_.width) * static_cast<std::size_t>(description_.height);
@@ -80,7 +67,26 @@ class Camera final : public Sensor {
     return (columns + rays::kPacket - 1) / rays::kPacket * rays::kPacket;
   }
 
+  /// Before the first image, likewise.
+  void place_columns() {
+    const std::size_t padded = columns_per_packet(static_cast<std::size_t>(description_.width));
+    const auto fill = [&](double part, std::vector<double>& left) {
+      left.reserve(padded);
+      for (std::size_t column = 0; column < padded; ++column) {
+        left.push_back((description_.width / 2.0 - (static_cast<double>(column) + part)) / focal_);
+      }
+    };
+    fill(kCentre, centres_);
+    borders_.reserve(padded / rays::kPacket + 1);
+    for (std::size_t column = 0; column <= padded; column += rays::kPacket) {
+      borders_.push_back((description_.width / 2.0 - static_cast<double>(column)) / focal_);
+    }
+    if (!description_.antialias) return;
+    for (std::size_t i = 0; i < kQuarters.size(); ++i) fill(kQuarters[i], quarters_[i]);
+  }
+
   void measure(const MeasurementContext& context, Measurement& measurement) override {
+    if (centres_.empty()) place_columns();
     auto& image = measurement.get<CameraImage>();
     const auto pixels = static_cast<std::size_t>(description_.width) * static_cast<std::size_t>(description_.height);
     image.depth.resize(pixels);
