@@ -87,7 +87,7 @@ void TreeModel::add_stops(const Axis& axis, ConstraintRows& rows, double step) {
   const Joint& joint = *model_.joints[axis.joint].joint;
   const AxisDescription& limits = joint.axis(axis.number);
   if (!std::isfinite(limits.lower) && !std::isfinite(limits.upper)) return;
-  const double here = joint.position(axis.number);
+  const double here = joint.position_when_driven(axis.number);
   const double speed = joint.velocity(axis.number);
   const double reach = step * (2 * std::abs(speed) + step * kReachOfStop);
   const double infinity = std::numeric_limits<double>::infinity();

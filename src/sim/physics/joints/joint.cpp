@@ -50,6 +50,15 @@ Joint::Joint(std::vector<AxisDescription> axes) {
     if (description.motor == MotorMode::kEffort) axis.target_effort = description.target;
     axis.description = std::move(description);
   }
+  list_measured();
+}
+
+void Joint::list_measured() {
+  measured_.clear();
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const AxisDescription& axis = axes_[i].description;
+    if (has_limits(axis) || axis.spring_stiffness > 0 || needs_driving(axis)) measured_.push_back(static_cast<int>(i));
+  }
 }
 
 void Joint::follow(double) {}
@@ -113,6 +122,7 @@ void Joint::set_motor_mode(int axis, MotorMode mode) {
   set.description.motor = mode;
   driven_.erase(std::remove(driven_.begin(), driven_.end(), axis), driven_.end());
   if (set.motor != nullptr && needs_driving(set.description)) driven_.push_back(axis);
+  list_measured();
   apply_motor(set);
 }
 
@@ -153,6 +163,7 @@ void Joint::mimic(int axis, const Joint& leader) { axes_[static_cast<std::size_t
 
 void Joint::drive(double step) {
   follow(step);
+  for (const int index : measured_) axes_[static_cast<std::size_t>(index)].here = position(index);
   for (const int index : driven_) drive_motor(index, step);
   for (const int index : sprung_) drive_spring(index, step);
   for (const int index : stopped_) set_stops(index, step);
@@ -162,7 +173,7 @@ void Joint::drive_motor(int index, double step) {
   const Axis& axis = axes_[static_cast<std::size_t>(index)];
   const AxisDescription& description = axis.description;
   if (axis.leader != nullptr) return follow_leader(index, step);
-  const double here = position(index);
+  const double here = axis.here;
   if (description.motor == MotorMode::kVelocity) {
     // Stop at the limit: a motor and a stop with unlimited forces would settle somewhere behind it.
     const double speed = target_speed(description, axis.gain * axis.target_velocity);
@@ -183,7 +194,7 @@ void Joint::follow_leader(int index, double step) {
   const MimicDescription& mimic = *description.mimic;
   // Angles are from -pi to pi: where the leader passes half a turn, the follower must not turn back.
   const bool leader_turns = axis.leader->axes_[static_cast<std::size_t>(mimic.axis)].turns;
-  const double here = position(index);
+  const double here = axis.here;
   const double there = axis.leader->position(mimic.axis);
   axis.followed = axis.turns ? counted(here, axis.followed) : here;
   axis.leader_followed = leader_turns ? counted(there, axis.leader_followed) : there;
@@ -200,13 +211,13 @@ void Joint::drive_spring(int index, double step) {
   // The spring's force at the end of the step, k (reference - x - h v), equals damping towards a velocity: stable for
   // any k.
   const double coefficient = description.damping + step * description.spring_stiffness;
-  const double force = description.spring_stiffness * (description.spring_reference - position(index));
+  const double force = description.spring_stiffness * (description.spring_reference - axis.here);
   axis.damper->damp(force / coefficient, coefficient);
 }
 
 void Joint::set_stops(int index, double step) {
   Axis& axis = axes_[static_cast<std::size_t>(index)];
-  const double here = position(index) - axis.shift;
+  const double here = axis.here - axis.shift;
   const double lower = axis.description.lower - axis.shift;
   const double upper = axis.description.upper - axis.shift;
   if (here < lower || here > upper) {

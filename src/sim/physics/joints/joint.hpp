@@ -78,6 +78,8 @@ class Joint {
 
   /// Sets ODE's motors for the next substep of `step` seconds.
   void drive(double step);
+  /// The position of an axis with limits when drive() was called: position() computes it each time.
+  double position_when_driven(int axis) const { return axes_[static_cast<std::size_t>(axis)].here; }
 
   /// What drive() has set for an axis.
   AxisForces forces(int axis) const {
@@ -128,6 +130,7 @@ class Joint {
     double target_velocity = 0;
     double target_effort = 0;
     double gain = 1;     // of the motor: factor of its targets, of position control of its speed
+    double here = 0;     // position at the last drive(), of a measured axis
     bool turns = false;  // an angle, of which position() may drop full turns
     const Joint* leader = nullptr;
     double followed = 0;         // own position in the last substep, counting full turns; only with a leader
@@ -143,6 +146,7 @@ class Joint {
     Motor* friction = nullptr;  // null when there is none
     Motor* damper = nullptr;
   };
+  void list_measured();
   void apply_motor(Axis& axis);
   void drive_motor(int index, double step);
   void follow_leader(int index, double step);
@@ -152,9 +156,10 @@ class Joint {
   void restore_stop(Axis& axis);
 
   std::vector<Axis> axes_;
-  std::vector<int> driven_;  // axes whose motor is set in each substep
+  std::vector<int> driven_;    // axes whose motor is set in each substep
   std::vector<int> sprung_;
-  std::vector<int> stopped_;  // axes with a range
+  std::vector<int> stopped_;   // axes with a range
+  std::vector<int> measured_;  // axes of which drive() needs the position, or that have limits
 };
 
 /// The unit direction of an axis in the world, at the joint's site.

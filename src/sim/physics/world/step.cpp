@@ -60,29 +60,49 @@ void drive_joints(const MovingModels& moving, double step) {
   for (const PlacedModel* model : moving.awake) {
     for (const PlacedJoint& placed : model->joints) {
       if (placed.joint) placed.joint->drive(step);
-      for (std::size_t axis = 0; axis < placed.motor_meters.size(); ++axis) {
-        if (placed.joint->is_driven(static_cast<int>(axis))) placed.motor_meters[axis]->aim();
-      }
     }
   }
 }
 
 template <class Do>
-void for_each_rotation(Substep& substep, const Do& act) {
+void for_each_of_ode(Substep& substep, const Do& act) {
   Islands& islands = substep.contacts.islands;
   for (PlacedModel* model : substep.moving.awake) {
-    if (islands.is_by_trees(islands.of(model->number))) continue;
-    for (Rotation& rotation : model->rotations) act(rotation);
+    if (!islands.is_by_trees(islands.of(model->number))) act(*model);
   }
 }
 
 /// Rotates the bodies of ODE with unequal moments of inertia: call before and after ODE's step.
 void begin_rotations(Substep& substep) {
-  for_each_rotation(substep, [&](Rotation& rotation) { rotation.begin(substep.duration); });
+  for_each_of_ode(substep, [&](PlacedModel& model) {
+    for (Rotation& rotation : model.rotations) rotation.begin(substep.duration);
+  });
 }
 
 void end_rotations(Substep& substep) {
-  for_each_rotation(substep, [&](Rotation& rotation) { rotation.end(substep.duration); });
+  for_each_of_ode(substep, [&](PlacedModel& model) {
+    for (Rotation& rotation : model.rotations) rotation.end(substep.duration);
+  });
+}
+
+template <class Do>
+void for_each_motor_of_ode(Substep& substep, const Do& act) {
+  for_each_of_ode(substep, [&](PlacedModel& model) {
+    for (const PlacedJoint& placed : model.joints) {
+      for (std::size_t axis = 0; axis < placed.motor_meters.size(); ++axis) {
+        if (placed.joint->is_driven(static_cast<int>(axis))) act(*placed.motor_meters[axis]);
+      }
+    }
+  });
+}
+
+/// Measures ODE's motors, while the bodies are where they were before the substep; and after it. Trees report efforts.
+void begin_motor_meters(Substep& substep) {
+  for_each_motor_of_ode(substep, [](MotorMeter& meter) { meter.aim(); });
+}
+
+void end_motor_meters(Substep& substep) {
+  for_each_motor_of_ode(substep, [&](MotorMeter& meter) { meter.gather(substep.duration); });
 }
 
 void begin_meters(const MovingModels& moving) {
@@ -102,9 +122,6 @@ void end_meters(Substep& substep) {
     for (auto& [index, meter] : model->motion_meters) meter.end(substep.duration, substep.gravity, place);
     for (const PlacedJoint& placed : model->joints) {
       if (placed.meter != nullptr) placed.meter->end(substep.duration);
-      for (std::size_t axis = 0; axis < placed.motor_meters.size(); ++axis) {
-        if (placed.joint->is_driven(static_cast<int>(axis))) placed.motor_meters[axis]->gather(substep.duration);
-      }
     }
   }
 }
@@ -123,9 +140,11 @@ void simulate(WorldState& state, const Wrenches& wrenches, double step) {
     correct_joints(moving, state.ode.id(), step);
     state.solvers.solve_trees(substep);
     join_contacts(substep);
+    begin_motor_meters(substep);
     begin_rotations(substep);
     state.solvers.solve_rest(substep);
     end_rotations(substep);
+    end_motor_meters(substep);
     stop_at_impacts(substep);
     gather_contacts(state.contacts);
     rest(substep);
