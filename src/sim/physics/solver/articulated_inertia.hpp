@@ -19,7 +19,8 @@ struct ArticulatedInertia {
 /// A degree of freedom.
 struct TreeDof {
   SpatialLanes direction;      ///< in which it moves the links behind it, per rate
-  SpatialLanes passes;         ///< what its link passes on to the parent of a force along it, per N or N m
+  SpatialLanes passes;         ///< what its link passes on to the parent of a force along it, per N or N m; of the
+                               ///< base only along the degrees of freedom before it
   double inverse_inertia = 0;  ///< 1/kg or 1/(kg m^2), against acceleration along it
 };
 
@@ -30,10 +31,12 @@ struct LinkDofs {
   int count = 0;
   bool is_free = false;  ///< it has all degrees of freedom, with axes of the world through its centre of mass
   bool is_ball = false;  ///< it turns about axes of the world
+  bool is_base = false;  ///< it is free, and its centre of mass is the origin: its directions are those of the axes
 };
 
 /// Computes what the degrees of freedom pass on and their inertias from their directions, and changes the inertias from
-/// those of single links to articulated ones, as they act on the parents. `added`: kg or kg m^2, by degree of freedom.
+/// those of single links to articulated ones, as they act on the parents; that of the base to the negative inverse of
+/// its articulated one. `added`: kg or kg m^2, by degree of freedom.
 void eliminate(const LinkDofs* links, int count, const double* added, ArticulatedInertia* inertias, TreeDof* dofs);
 
 }  // namespace bubblesim

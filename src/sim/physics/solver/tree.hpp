@@ -165,6 +165,7 @@ class Tree {
   void accelerate(int link, const double* rates);
   void find_need(int link, const double* rates, const Wrench& wrench);
   void gather_needs(const double* forces);
+  void find_change_of_base();
   void find_change(int link);
   void set_momentum(int root, const TreeMomentum& wanted);
 

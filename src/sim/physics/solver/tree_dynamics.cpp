@@ -12,6 +12,11 @@ BUBBLESIM_SIMD void Tree::set_velocities(const Eigen::VectorXd& rates) {
 /// That of the parent is set.
 BUBBLESIM_INLINE void Tree::set_velocity(int link, const double* rates) {
   const LinkDofs& own = numbers_[index(link)];
+  if (own.is_base) {
+    bodies_[0].velocity.angular = Four{rates[0], rates[1], rates[2], 0};
+    bodies_[0].velocity.linear = Four{rates[3], rates[4], rates[5], 0};
+    return;
+  }
   SpatialLanes velocity = parent_of(own).velocity;
   for (int k = own.first; k < own.first + own.count; ++k) velocity.add(rates[k], dofs_[index(k)].direction);
   bodies_[index(link)].velocity = velocity;
@@ -121,6 +126,11 @@ BUBBLESIM_INLINE void Tree::find_need(int link, const double* rates, const Wrenc
 BUBBLESIM_INLINE void Tree::gather_needs(const double* forces) {
   for (int i = links() - 1; i >= 0; --i) {
     const LinkDofs& own = numbers_[index(i)];
+    if (own.is_base) {
+      bodies_[index(i)].needs.angular -= Four{forces[0], forces[1], forces[2], 0};
+      bodies_[index(i)].needs.linear -= Four{forces[3], forces[4], forces[5], 0};
+      return;
+    }
     SpatialLanes needs = bodies_[index(i)].needs;
     for (int k = own.first + own.count - 1; k >= own.first; --k) {
       const TreeDof& dof = dofs_[index(k)];
@@ -131,9 +141,28 @@ BUBBLESIM_INLINE void Tree::gather_needs(const double* forces) {
   }
 }
 
+/// By all that is left at once: the base has the inverse of its inertia.
+BUBBLESIM_INLINE void Tree::find_change_of_base() {
+  const SpatialLanes* const columns = inertias_[0].columns;
+  const SpatialLanes& needs = bodies_[0].needs;
+  SpatialLanes by_moment;
+  SpatialLanes by_force;
+  for (int j = 0; j < 3; ++j) {
+    by_moment.add(needs.angular[j], columns[j]);
+    by_force.add(needs.linear[j], columns[j + 3]);
+  }
+  by_moment.add(by_force);
+  bodies_[0].change = by_moment;
+  for (int k = 0; k < 3; ++k) {
+    change_[k] = by_moment.angular[k];
+    change_[k + 3] = by_moment.linear[k];
+  }
+}
+
 /// Computes how a link's rates, and with them its velocity, change per second; that of the parent is there.
 BUBBLESIM_INLINE void Tree::find_change(int link) {
   const LinkDofs& own = numbers_[index(link)];
+  if (own.is_base) return find_change_of_base();
   SpatialLanes change = parent_of(own).change;
   for (int k = own.first; k < own.first + own.count; ++k) {
     const TreeDof& dof = dofs_[index(k)];
