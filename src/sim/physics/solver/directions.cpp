@@ -6,8 +6,8 @@
 namespace bubblesim {
 namespace {
 
-BUBBLESIM_SIMD void add_products(const double* const* components, const double* factors, int count,
-                                 double* __restrict__ to) {
+BUBBLESIM_INLINE void add_products(const double* const* components, const double* factors, int count,
+                                   double* __restrict__ to) {
   const double* const a = components[0];
   const double* const b = components[1];
   const double* const c = components[2];
@@ -18,6 +18,11 @@ BUBBLESIM_SIMD void add_products(const double* const* components, const double* 
     to[i] += (a[i] * factors[0] + b[i] * factors[1] + c[i] * factors[2]) +
              (d[i] * factors[3] + e[i] * factors[4] + f[i] * factors[5]);
   }
+}
+
+BUBBLESIM_SIMD void add_many_products(const double* const* components, const double* factors, int count,
+                                      double* __restrict__ to) {
+  add_products(components, factors, count, to);
 }
 
 }  // namespace
@@ -38,7 +43,8 @@ void Directions::project(const Vector3& moment, const Vector3& force, int first,
   const double* from[6];
   for (std::size_t i = 0; i < 6; ++i) from[i] = components_[i].data() + first;
   const double factors[6] = {moment.x(), moment.y(), moment.z(), force.x(), force.y(), force.z()};
-  add_products(from, factors, count, to);
+  if (count < 4) return add_products(from, factors, count, to);  // wheels: a call would take longer
+  add_many_products(from, factors, count, to);
 }
 
 }  // namespace bubblesim

@@ -15,6 +15,11 @@ BUBBLESIM_INLINE Vector3 vector_of(const Four& v) { return {v[0], v[1], v[2]}; }
 
 BUBBLESIM_INLINE Four lanes_of(const Quaternion& turn) { return Four{turn.x(), turn.y(), turn.z(), turn.w()}; }
 
+/// Some of the numbers of a group, and its fourth.
+template <int a, int b, int c>
+BUBBLESIM_INLINE Four lanes(const Four& of) {
+  return Four{of[a], of[b], of[c], of[3]};
+}
 BUBBLESIM_INLINE double lanes_dot(const Four& a, const Four& b) {
   const Four parts = a * b;
   return parts[0] + parts[1] + parts[2];
@@ -47,15 +52,15 @@ struct MatrixLanes {
   BUBBLESIM_INLINE Four operator*(const Four& v) const {
     return columns[0] * v[0] + columns[1] * v[1] + columns[2] * v[2];
   }
-  /// The axes that a quaternion of unit length turns to.
+  /// The axes that a quaternion of unit length turns to. In groups: what is stored number by number is slow to read.
   BUBBLESIM_INLINE void set_turn(const Four& turn) {
     const Four twice = turn * 2;
-    const Four by_x = twice * turn[0];
-    const Four by_y = twice * turn[1];
-    const Four by_z = twice * turn[2];
-    columns[0] = Four{1 - (by_y[1] + by_z[2]), by_x[1] + by_z[3], by_x[2] - by_y[3], 0};
-    columns[1] = Four{by_x[1] - by_z[3], 1 - (by_x[0] + by_z[2]), by_y[2] + by_x[3], 0};
-    columns[2] = Four{by_x[2] + by_y[3], by_y[2] - by_x[3], 1 - (by_x[0] + by_y[1]), 0};
+    columns[0] = Four{1, 0, 0, 0} + (lanes<1, 0, 0>(twice) * lanes<1, 1, 2>(turn) * Four{-1, 1, 1, 0} +
+                                     lanes<2, 2, 1>(twice) * lanes<2, 3, 3>(turn) * Four{-1, 1, -1, 0});
+    columns[1] = Four{0, 1, 0, 0} + (lanes<0, 0, 1>(twice) * lanes<1, 0, 2>(turn) * Four{1, -1, 1, 0} +
+                                     lanes<2, 2, 0>(twice) * lanes<3, 2, 3>(turn) * Four{-1, -1, 1, 0});
+    columns[2] = Four{0, 0, 1, 0} + (lanes<0, 1, 0>(twice) * lanes<2, 2, 0>(turn) * Four{1, 1, -1, 0} +
+                                     lanes<1, 0, 1>(twice) * lanes<3, 3, 1>(turn) * Four{1, -1, -1, 0});
   }
   auto matrix() const {
     return Eigen::Map<const Matrix3, Eigen::Unaligned, Eigen::OuterStride<4>>(reinterpret_cast<const double*>(columns));

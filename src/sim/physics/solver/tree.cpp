@@ -54,12 +54,22 @@ int Tree::add(const TreeLink& link) {
   inertias_.emplace_back();
   joints_.emplace_back();
   bodies_.emplace_back();
+  set_inertia(number, link.mass, link.inertia);
   return number;
 }
 
 void Tree::set_inertia(int link, double mass, const Matrix3& inertia) {
-  links_[index(link)].link.mass = mass;
+  Body& body = bodies_[index(link)];
+  links_[index(link)].link.mass = body.mass = mass;
   links_[index(link)].link.inertia = inertia;
+  body.inertia = turned_inertia(inertia, body.axes);
+}
+
+BUBBLESIM_INLINE void Tree::turn(int link, const Four& orientation) {
+  Body& body = bodies_[index(link)];
+  body.orientation = orientation;
+  body.axes.set_turn(orientation);
+  body.inertia = turned_inertia(links_[index(link)].link.inertia, body.axes);
 }
 
 void Tree::set_origin(const Vector3& origin) {
@@ -71,8 +81,9 @@ BUBBLESIM_SIMD void Tree::read(const std::vector<Pose>& poses, const std::vector
   set_origin(poses[0].position);
   for (int i = 0; i < links(); ++i) {
     Body& body = bodies_[index(i)];
-    body.orientation = lanes_of(poses[index(i)].orientation);
-    body.axes.set_turn(body.orientation);
+    // Bodies that the tree itself has placed are turned already.
+    const Four orientation = lanes_of(poses[index(i)].orientation);
+    if (!has_same_bits(body.orientation, orientation)) turn(i, orientation);
     body.centre = lanes_of(poses[index(i)].position) - lanes_of(origin_);
     read_joint(i, velocities);
     place_joint(i);
@@ -139,24 +150,22 @@ BUBBLESIM_SIMD void Tree::place() {
     const TreeJointState& state = joints_[index(i)];
     Body& body = bodies_[index(i)];
     if (link.motion == TreeMotion::kFree) {
-      body.orientation = lanes_of(state.turn);
-      body.axes.set_turn(body.orientation);
+      turn(i, lanes_of(state.turn));
       if (i == 0) set_origin(state.place);
       body.centre = lanes_of(state.place) - lanes_of(origin_);
       place_joint(i);
       continue;
     }
-    Four turn;  // in the parent
+    Four turned;  // in the parent
     if (turns(link.motion)) {
-      turn = placed.straight * state.turn.w() + placed.turned * link.axis.dot(state.turn.vec());
+      turned = placed.straight * state.turn.w() + placed.turned * link.axis.dot(state.turn.vec());
     } else {
       Quaternion inner = state.turn;
       if (link.motion == TreeMotion::kTwoAxes) inner = inner * state.turn2;
-      turn = lanes_of(link.in_parent.orientation * inner * link.in_child.orientation.conjugate());
+      turned = lanes_of(link.in_parent.orientation * inner * link.in_child.orientation.conjugate());
     }
-    turn = turn_product(parent_of(link).orientation, turn);
-    body.orientation = turn * inverse_length(turn_dot(turn, turn));
-    body.axes.set_turn(body.orientation);
+    turned = turn_product(parent_of(link).orientation, turned);
+    turn(i, turned * inverse_length(turn_dot(turned, turned)));
     if (i == 0) set_origin(Vector3());
     place_joint(i);
     body.centre = body.anchor - body.axes * placed.in_child;

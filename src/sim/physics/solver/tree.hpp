@@ -28,7 +28,7 @@ struct TreeLink {
   double lead = 0;                        ///< m/rad, of kScrews
   Pose in_parent;                         ///< the joint's frame in the parent, whose origin is its centre of mass
   Pose in_child;                          ///< likewise in this link
-  double mass = 1;                        ///< kg
+  double mass = 1;                        ///< kg, at first
   Matrix3 inertia = Matrix3::Identity();  ///< kg m^2, about the centre of mass, in the link's axes
 };
 
@@ -51,7 +51,7 @@ class Tree {
   /// Adds a link; returns its number.
   int add(const TreeLink& link);
   void set_inertia(int link, double mass, const Matrix3& inertia);
-  double mass(int link) const { return links_[index(link)].link.mass; }
+  double mass(int link) const { return bodies_[index(link)].mass; }
 
   int links() const { return static_cast<int>(links_.size()); }
   int parent(int link) const { return numbers_[index(link)].parent; }
@@ -89,8 +89,7 @@ class Tree {
   /// Computes the inertias at the present place, of links and articulated, with `added` to the mass matrix by degree of
   /// freedom, kg or kg m^2.
   void weigh(const Eigen::VectorXd& added);
-  /// Adds to the wrenches on links what takes them from velocities in a substep to those that the joints allow. After
-  /// weigh().
+  /// Adds to the wrenches on links what takes them from velocities in a substep to those that the joints allow.
   void add_impulses(const std::vector<Twist>& velocities, double step, std::vector<Wrench>& wrenches) const;
   /// Changes the rates by a substep: (M + added) du = step (forces - bias), where the bias is what rates and wrenches
   /// on links (about their centres of mass) need, at the mean of the rates before and after, which makes it of second
@@ -111,7 +110,7 @@ class Tree {
 
   /// The link of kFree that carries a link; -1: the world carries it.
   int free_root(int link) const { return links_[index(link)].free_root; }
-  /// Of a link with a velocity, at the present place. After weigh().
+  /// Of a link with a velocity, at the present place.
   TreeMomentum momentum(int link, const Twist& velocity) const;
   /// Of a link, at the present place. After set_velocities().
   TreeMomentum momentum(int link) const;
@@ -134,14 +133,13 @@ class Tree {
     Four turned = {};
   };
   struct Body {
-    MatrixLanes axes;
     Four orientation = {0, 0, 0, 1};  // x, y, z, w
-    Four centre = {};                 // from the origin
-    Four anchor = {};                 // of its joint, likewise
-    SpatialLanes velocity;
-    // Of weigh():
+    MatrixLanes axes;                 // of this orientation
+    MatrixLanes inertia;              // likewise: world axes, about the centre
     double mass = 0;
-    MatrixLanes inertia;  // world axes, about the centre
+    Four centre = {};  // from the origin
+    Four anchor = {};  // of its joint, likewise
+    SpatialLanes velocity;
     // Of push():
     SpatialLanes acceleration;  // the derivative of `velocity` while the rates are constant
     SpatialLanes needs;         // for this acceleration, with what its children need
@@ -159,12 +157,14 @@ class Tree {
     return {turn[3], turn[0], turn[1], turn[2]};
   }
   void set_origin(const Vector3& origin);
+  void turn(int link, const Four& orientation);
   void read_joint(int link, const std::vector<Twist>& velocities);
   void place_joint(int link);
   void set_velocity(int link, const double* rates);
   void accelerate(int link, const double* rates);
   void find_need(int link, const double* rates, const Wrench& wrench);
   void gather_needs(const double* forces);
+  void project(const Vector3& moment, const Vector3& force, int first, int count, double* forces) const;
   void find_change_of_base();
   void find_change(int link);
   void set_momentum(int root, const TreeMomentum& wanted);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Velocities, inertias and accelerations of a tree.
+#include <algorithm>
+
 #include "physics/solver/tree.hpp"
 #include "scene/simd.hpp"
 
@@ -24,19 +26,16 @@ BUBBLESIM_INLINE void Tree::set_velocity(int link, const double* rates) {
 
 BUBBLESIM_SIMD void Tree::weigh(const Eigen::VectorXd& added) {
   for (int i = 0; i < links(); ++i) {
-    const TreeLink& link = links_[index(i)].link;
-    Body& body = bodies_[index(i)];
-    body.mass = link.mass;
-    body.inertia = turned_inertia(link.inertia, body.axes);
+    const Body& body = bodies_[index(i)];
     // A point mass at r resists a turn about the axis e by r x (e x r), and by e x r.
     const Four r = body.centre;
     for (int j = 0; j < 3; ++j) {
       const Four axis{j == 0 ? 1.0 : 0.0, j == 1 ? 1.0 : 0.0, j == 2 ? 1.0 : 0.0, 0};
-      const Four push = cross(axis, r) * link.mass;
+      const Four push = cross(axis, r) * body.mass;
       inertias_[index(i)].columns[j].angular = body.inertia.columns[j] + cross(r, push);
       inertias_[index(i)].columns[j].linear = push;
       inertias_[index(i)].columns[j + 3].angular = -push;
-      inertias_[index(i)].columns[j + 3].linear = axis * link.mass;
+      inertias_[index(i)].columns[j + 3].linear = axis * body.mass;
     }
   }
   eliminate(numbers_.data(), links(), added.data(), inertias_.data(), dofs_.data());
@@ -70,7 +69,7 @@ void Tree::factor() {
     const Vector3 force = vector_of(dof.passes.linear);
     for (int last = before(k); last >= 0;) {
       const int first = factors_.first_of_run(last);
-      directions_.project(moment, force, first, last - first + 1, &factors_.entry(k, first));
+      project(moment, force, first, last - first + 1, &factors_.entry(k, first));
       last = before(first);
     }
   }
@@ -79,9 +78,17 @@ void Tree::factor() {
 void Tree::project(int link, const Vector3& moment, const Vector3& force, double* forces) const {
   for (int last = last_dof(link); last >= 0;) {
     const int first = factors_.first_of_run(last);
-    directions_.project(moment, force, first, last - first + 1, forces + first);
+    project(moment, force, first, last - first + 1, forces + first);
     last = before(first);
   }
+}
+
+/// Likewise to degrees of freedom with consecutive numbers.
+void Tree::project(const Vector3& moment, const Vector3& force, int first, int count, double* forces) const {
+  if (first > 0 || !numbers_[0].is_base) return directions_.project(moment, force, first, count, forces);
+  for (int k = 0; k < std::min(count, 3); ++k) forces[k] += moment[k];
+  for (int k = 3; k < std::min(count, 6); ++k) forces[k] += force[k - 3];
+  if (count > 6) directions_.project(moment, force, 6, count - 6, forces + 6);
 }
 
 /// Computes the acceleration of a link while the rates are constant; that of the parent is there.

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The momenta of floating trees. Coordinates keep them only as exactly as a substep is short: the mass matrix is that
 // of the place before.
-#include <Eigen/Cholesky>
-
 #include "physics/solver/tree.hpp"
 #include "scene/simd.hpp"
-#include "scene/unit_steiner.hpp"
 
 namespace bubblesim {
 
@@ -16,12 +13,31 @@ TreeMomentum Tree::momentum(int link, const Twist& velocity) const {
 }
 
 TreeMomentum Tree::momentum(int number) const {
-  const TreeLink& link = links_[index(number)].link;
   const Body& body = bodies_[index(number)];
-  const Four linear = body.velocity.at(body.centre) * link.mass;
-  const Four angular = turned_inertia(link.inertia, body.axes) * body.velocity.angular;
+  const Four linear = body.velocity.at(body.centre) * body.mass;
+  const Four angular = body.inertia * body.velocity.angular;
   return {vector_of(linear), vector_of(cross(body.centre, linear) + angular)};
 }
+
+namespace {
+
+/// Solves for a vector by a symmetric positive definite matrix, whose factors are L D L^T.
+BUBBLESIM_INLINE Four solve(const MatrixLanes& matrix, const Four& given) {
+  const Four* const a = matrix.columns;
+  const double d0 = 1 / a[0][0];
+  const double l10 = a[0][1] * d0;
+  const double l20 = a[0][2] * d0;
+  const double d1 = 1 / (a[1][1] - l10 * a[0][1]);
+  const double left = a[1][2] - l10 * a[0][2];
+  const double l21 = left * d1;
+  const double d2 = 1 / (a[2][2] - l20 * a[0][2] - l21 * left);
+  const double y1 = given[1] - l10 * given[0];
+  const double z = (given[2] - l20 * given[0] - l21 * y1) * d2;
+  const double y = y1 * d1 - l21 * z;
+  return Four{given[0] * d0 - l10 * y - l20 * z, y, z, 0};
+}
+
+}  // namespace
 
 /// Changes the velocities of links that hang together as if they were one rigid body.
 BUBBLESIM_SIMD void Tree::set_momentum(int root, const TreeMomentum& wanted) {
@@ -31,28 +47,28 @@ BUBBLESIM_SIMD void Tree::set_momentum(int root, const TreeMomentum& wanted) {
   Four first = {};
   MatrixLanes second;
   for (Four& column : second.columns) column = Four{};
+  const auto add_point = [&](const Four& place, double weight) {
+    const double square = lanes_dot(place, place);
+    const MatrixLanes unit;
+    for (int c = 0; c < 3; ++c) second.columns[c] += (unit.columns[c] * square - place * place[c]) * weight;
+  };
   for (int i = root; i < links(); ++i) {
     if (free_root(i) != root) continue;
-    const TreeLink& link = links_[index(i)].link;
     const Body& body = bodies_[index(i)];
-    const Four centre = body.centre;
-    const MatrixLanes inertia = turned_inertia(link.inertia, body.axes);
-    const Four push = body.velocity.at(centre) * link.mass;
+    const Four push = body.velocity.at(body.centre) * body.mass;
     linear -= push;
-    angular -= cross(centre, push) + inertia * body.velocity.angular;
-    mass += link.mass;
-    first += centre * link.mass;
-    const Four square = centre * centre;
-    for (int c = 0; c < 3; ++c) {
-      second.columns[c] += inertia.columns[c] - centre * (centre[c] * link.mass);
-      second.columns[c][c] += (square[0] + square[1] + square[2]) * link.mass;
-    }
+    angular -= cross(body.centre, push) + body.inertia * body.velocity.angular;
+    mass += body.mass;
+    first += body.centre * body.mass;
+    for (int c = 0; c < 3; ++c) second.columns[c] += body.inertia.columns[c];
+    add_point(body.centre, body.mass);
   }
-  const Vector3 centre = vector_of(first) / mass;
-  const Vector3 slide = vector_of(linear) / mass;
-  const Matrix3 about_centre = second.matrix() - mass * unit_steiner(centre);
-  const Vector3 turn = about_centre.ldlt().solve(vector_of(angular) - centre.cross(vector_of(linear)));
-  const SpatialLanes change{lanes_of(turn), lanes_of(slide - turn.cross(centre))};
+  const Four centre = first * (1 / mass);
+  const Four slide = linear * (1 / mass);
+  add_point(centre, -mass);
+  SpatialLanes change;
+  change.angular = solve(second, angular - cross(centre, linear));
+  change.linear = slide - cross(change.angular, centre);
   for (int i = root; i < links(); ++i) {
     if (free_root(i) == root) bodies_[index(i)].velocity.add(change);
   }
