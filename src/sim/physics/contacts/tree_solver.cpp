@@ -2,6 +2,7 @@
 #include "physics/contacts/tree_solver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <tuple>
 
@@ -169,21 +170,22 @@ void TreeSolver::add_point(const TreeBody& a, const TreeBody& b, const FoundPair
   // A rigid contact yields only to what it did not bear before: a robot does not sink.
   if (!found.has_own_correction) target += cfm * std::max(start.normal, 0.0);
 
-  const auto add = [&](const Vector3& direction, double wanted, double softness) {
-    const int row = rows_.add_force(a, b, position, direction);
-    rows_.set(row, wanted, softness / step, force.dot(direction) * step);
+  const std::array<Vector3, 3> directions = {n, point.tangent1, point.tangent2};
+  point.normal = rows_.add_forces(a, b, position, directions);
+  const auto set = [&](int number, double wanted, double softness) {
+    const int row = point.normal + number;
+    rows_.set(row, wanted, softness / step, force.dot(directions[static_cast<std::size_t>(number)]) * step);
     rows_.set_of_contact(row);
-    return row;
   };
-  point.normal = add(n, target, cfm);
+  set(0, target, cfm);
+  set(1, (surface.mode & dContactMotion1) != 0 ? surface.motion1 : 0,
+      (surface.mode & dContactSlip1) != 0 ? surface.slip1 : 0);
+  set(2, (surface.mode & dContactMotion2) != 0 ? surface.motion2 : 0,
+      (surface.mode & dContactSlip2) != 0 ? surface.slip2 : 0);
   ConeBlock normal;
   normal.row = point.normal;
   normal.lower = 0;
   rows_.bound(normal);
-  add(point.tangent1, (surface.mode & dContactMotion1) != 0 ? surface.motion1 : 0,
-      (surface.mode & dContactSlip1) != 0 ? surface.slip1 : 0);
-  add(point.tangent2, (surface.mode & dContactMotion2) != 0 ? surface.motion2 : 0,
-      (surface.mode & dContactSlip2) != 0 ? surface.slip2 : 0);
   const double mu2 = (surface.mode & dContactMu2) != 0 ? surface.mu2 : surface.mu;
   const auto bound = [&](int row, int size, double mu) {
     ConeBlock block;

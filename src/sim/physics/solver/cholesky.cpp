@@ -5,37 +5,35 @@
 
 namespace bubblesim {
 
-BUBBLESIM_SIMD void Cholesky::factor(const Eigen::MatrixXd& matrix) {
-  const int n = static_cast<int>(matrix.rows());
-  lower_.set_zero(n, n);
-  inverse_.resize(n);
+BUBBLESIM_SIMD void Cholesky::solve(const Columns& a, double* x) {
+  const int n = a.rows();
+  const auto size = static_cast<std::size_t>(n);
+  // Below the matrix is a row with x: its elimination is half of the solution.
+  lower_.resize(n + 1, n);
+  const std::size_t last = size / 4 * 4;  // the group of this row
+  Four place = {};
+  place[n % 4] = 1;
   for (int c = 0; c < n; ++c) {
     double* const to = lower_[c];
-    const double* const from = matrix.data() + static_cast<std::ptrdiff_t>(c) * n;
-    for (int r = c; r < n; ++r) to[r] = from[r];
+    for (std::size_t r = static_cast<std::size_t>(c) / 4 * 4; r < last; r += 4) store_four(to + r, load_four(a[c] + r));
+    store_four(to + last, (last < a.length() ? load_four(a[c] + last) : Four{}) + place * x[c]);
   }
-  double* const inverse = inverse_.data();
   for (int k = 0; k < n; ++k) {
-    double* own = lower_[k];
-    const double scale = inverse[k] = 1 / own[k];
+    double* const own = lower_[k];
+    const double inverse = 1 / own[k];
     for (int c = k + 1; c < n; ++c) {
       const std::size_t first = static_cast<std::size_t>(c) / 4 * 4;
-      add_multiple(lower_[c] + first, -own[c] * scale, own + first, lower_.length() - first);
+      add_multiple(lower_[c] + first, -own[c] * inverse, own + first, lower_.length() - first);
     }
-    for (int r = k + 1; r < n; ++r) own[r] *= scale;
-  }
-}
-
-BUBBLESIM_SIMD void Cholesky::solve(Eigen::VectorXd& x) const {
-  const int n = lower_.rows();
-  double* const values = x.data();
-  for (int k = 0; k < n; ++k) {
-    const double* own = lower_[k];
-    for (int r = k + 1; r < n; ++r) values[r] -= own[r] * values[k];
+    for (std::size_t r = static_cast<std::size_t>(k) / 4 * 4; r < lower_.length(); r += 4) {
+      store_four(own + r, load_four(own + r) * inverse);
+    }
   }
   for (int k = n - 1; k >= 0; --k) {
-    const auto first = static_cast<std::size_t>(k) + 1;
-    values[k] = values[k] * inverse_[k] - dot(lower_[k] + first, values + first, static_cast<std::size_t>(n) - first);
+    const double* const own = lower_[k];
+    double left = own[n];
+    for (int r = n - 1; r > k; --r) left -= own[r] * x[r];  // the number that was found last comes last
+    x[k] = left;
   }
 }
 

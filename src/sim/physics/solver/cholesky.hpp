@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
-
 #include "physics/solver/columns.hpp"
 
 namespace bubblesim {
 
-/// Factors L D L^T of a small symmetric positive definite matrix.
+/// Solves by the factors L D L^T of a small symmetric positive definite matrix.
 class Cholesky {
  public:
-  void factor(const Eigen::MatrixXd& matrix);
-  /// Replaces x by the solution.
-  void solve(Eigen::VectorXd& x) const;
+  /// Replaces x by the solution y of A y = x, of which the elements of A on and below the diagonal count.
+  void solve(const Columns& a, double* x);
 
  private:
-  Columns lower_;  // above the diagonal: anything
-  Eigen::VectorXd inverse_;
+  Columns lower_;  // and x; above the diagonal: anything
 };
 
 }  // namespace bubblesim

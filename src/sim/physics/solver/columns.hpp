@@ -2,6 +2,7 @@
 // Small dense matrices of the constraint solver, and loops over rows of numbers.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
@@ -32,6 +33,13 @@ class Columns {
  public:
   static std::size_t in_groups(std::size_t count) { return (count + 3) / 4 * 4; }
 
+  /// The values are anything.
+  void resize(int rows, int columns) {
+    rows_ = rows;
+    columns_ = columns;
+    length_ = in_groups(static_cast<std::size_t>(rows));
+    values_.resize(length_ * static_cast<std::size_t>(columns));
+  }
   void set_zero(int rows, int columns) {
     resize(rows, columns);
     values_.assign(values_.size(), 0);
@@ -42,17 +50,27 @@ class Columns {
   double* operator[](int column) { return values_.data() + static_cast<std::size_t>(column) * length_; }
   const double* operator[](int column) const { return values_.data() + static_cast<std::size_t>(column) * length_; }
 
-  /// Makes this A W A^T, with a weight for each column of A: only the elements on and below the diagonal.
+  double& operator()(int row, int column) { return (*this)[column][row]; }
+  double operator()(int row, int column) const { return (*this)[column][row]; }
+  /// The same values, for what need not be fast.
+  auto matrix() {
+    return Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>(values_.data(), rows_, columns_, stride());
+  }
+  auto matrix() const {
+    return Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>(values_.data(), rows_, columns_, stride());
+  }
+
+  /// Makes this the matrix whose rows are given, each with `stride` numbers, which is a multiple of four.
+  void set_rows(const double* given, int rows, int columns, std::size_t stride);
+  /// Makes this A W A^T, with a weight for each column of A. Beyond its own rows, the columns have anything.
   void set_weighted_square(const Columns& a, const double* weights);
+  /// Sets `length()` numbers to the product with a vector.
+  void multiply(const double* vector, double* product) const;
+  /// Likewise one for each column to that of the transposed matrix with a vector of `length()` numbers.
+  void multiply_transposed(const double* vector, double* product) const;
 
  private:
-  /// The values are anything.
-  void resize(int rows, int columns) {
-    rows_ = rows;
-    columns_ = columns;
-    length_ = in_groups(static_cast<std::size_t>(rows));
-    values_.resize(length_ * static_cast<std::size_t>(columns));
-  }
+  Eigen::OuterStride<> stride() const { return Eigen::OuterStride<>(static_cast<Eigen::Index>(length_)); }
 
   int rows_ = 0;
   int columns_ = 0;

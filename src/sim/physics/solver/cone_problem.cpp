@@ -19,7 +19,7 @@ double bound_of(const ConeBlock& block, double normal) { return block.mu * std::
 double size_of(double x, double y) { return std::sqrt(x * x + y * y); }
 
 /// The largest eigenvalue of the part of a disc.
-double largest(const Eigen::MatrixXd& a, int row) {
+double largest(const Columns& a, int row) {
   const double half = (a(row, row) - a(row + 1, row + 1)) / 2;
   return a(row, row) - half + std::sqrt(half * half + a(row, row + 1) * a(row, row + 1));
 }
@@ -27,39 +27,40 @@ double largest(const Eigen::MatrixXd& a, int row) {
 }  // namespace
 
 double ConeSolver::evaluate(const ConeProblem& problem, const Eigen::VectorXd& x) {
-  trial_.noalias() = problem.a * x;
-  trial_ -= problem.b;
-  trial_ = x - scale_.cwiseProduct(trial_);
+  product_.resize(problem.a.length());
+  problem.a.multiply(x.data(), product_.data());
+  trial_.resize(x.size());
   residual_.resize(x.size());
+  is_within_bounds_ = true;
+  double merit = 0;
+  const auto set_residual = [&](int row, double projected) {
+    residual_[row] = (x[row] - projected) * admittance_[row];
+    merit += residual_[row] * residual_[row];
+  };
   for (const ConeBlock& block : problem.blocks) {
     const int r = block.row;
+    for (int k = r; k < r + block.size; ++k) {
+      trial_[k] = x[k] - scale_[k] * (product_[static_cast<std::size_t>(k)] - problem.b[k]);
+    }
     const double bound = block.normal < 0 ? 0 : bound_of(block, trial_[block.normal]);
     if (block.size == 1) {
       const double lower = block.normal < 0 ? block.lower : -bound;
       const double upper = block.normal < 0 ? block.upper : bound;
-      residual_[r] = (x[r] - std::clamp(trial_[r], lower, upper)) / scale_[r];
+      set_residual(r, std::clamp(trial_[r], lower, upper));
+      is_within_bounds_ = is_within_bounds_ && trial_[r] > lower && trial_[r] < upper;
       continue;
     }
     const double size = size_of(trial_[r], trial_[r + 1]);
     const double part = size > bound ? bound / size : 1;
-    for (int k = r; k < r + 2; ++k) residual_[k] = (x[k] - part * trial_[k]) / scale_[k];
+    for (int k = r; k < r + 2; ++k) set_residual(k, part * trial_[k]);
+    is_within_bounds_ = is_within_bounds_ && size <= bound;
   }
-  return residual_.squaredNorm();
-}
-
-/// Whether the last point that was evaluated is: then the slope of the residual is A.
-bool ConeSolver::is_within_bounds(const ConeProblem& problem) const {
-  return std::all_of(problem.blocks.begin(), problem.blocks.end(), [&](const ConeBlock& block) {
-    const double bound = block.normal < 0 ? 0 : bound_of(block, trial_[block.normal]);
-    const int r = block.row;
-    if (block.size == 2) return size_of(trial_[r], trial_[r + 1]) <= bound;
-    return block.normal < 0 ? trial_[r] > block.lower && trial_[r] < block.upper : std::abs(trial_[r]) < bound;
-  });
+  return merit;
 }
 
 /// The slope of the residual at the last point that was evaluated.
 void ConeSolver::differentiate(const ConeProblem& problem) {
-  const Eigen::MatrixXd& a = problem.a;
+  const auto a = problem.a.matrix();
   slope_.resize(a.rows(), a.cols());
   // The slope of the trial is I - scale A.
   const auto trial_slope = [&](int row) {
@@ -104,7 +105,7 @@ void ConeSolver::differentiate(const ConeProblem& problem) {
 }
 
 void ConeSolver::sweep(ConeProblem& problem) {
-  const Eigen::MatrixXd& a = problem.a;
+  const auto a = problem.a.matrix();
   Eigen::VectorXd& x = problem.x;
   for (const ConeBlock& block : problem.blocks) {
     const int r = block.row;
@@ -126,19 +127,22 @@ ConeResult ConeSolver::solve(ConeProblem& problem) {
   const Eigen::Index rows = problem.b.size();
   if (rows == 0) return result;
   scale_.resize(rows);
+  admittance_.resize(rows);
   for (const ConeBlock& block : problem.blocks) {
     const double admittance = block.size == 1 ? problem.a(block.row, block.row) : largest(problem.a, block.row);
-    scale_.segment(block.row, block.size).setConstant(1 / admittance);
+    for (int k = block.row; k < block.row + block.size; ++k) {
+      admittance_[k] = admittance;
+      scale_[k] = 1 / admittance;
+    }
   }
   const double enough = kSmall * kSmall * static_cast<double>(rows);
   const double good = kGood * kGood * static_cast<double>(rows);
   double merit = evaluate(problem, problem.x);
   while (merit > enough && result.newton_steps < kNewtonSteps) {
     ++result.newton_steps;
-    if (is_within_bounds(problem)) {
-      whole_.factor(problem.a);
+    if (is_within_bounds_) {
       step_ = residual_;
-      whole_.solve(step_);
+      whole_.solve(problem.a, step_.data());
     } else {
       differentiate(problem);
       step_ = sloped_.compute(slope_).solve(residual_);

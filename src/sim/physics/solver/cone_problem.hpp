@@ -28,7 +28,7 @@ struct ConeBlock {
 };
 
 struct ConeProblem {
-  Eigen::MatrixXd a;              ///< 1/kg, symmetric and positive definite
+  Columns a;                      ///< 1/kg, symmetric but for rounding, and positive definite
   Eigen::VectorXd b;              ///< m/s or rad/s
   Eigen::VectorXd x;              ///< N s or N m s: the start, then the solution
   std::vector<ConeBlock> blocks;  ///< of all rows; the normal of a block has its block before
@@ -47,13 +47,15 @@ class ConeSolver {
 
  private:
   double evaluate(const ConeProblem& problem, const Eigen::VectorXd& x);
-  bool is_within_bounds(const ConeProblem& problem) const;
   void differentiate(const ConeProblem& problem);
   void sweep(ConeProblem& problem);
 
-  Eigen::VectorXd scale_;     // kg, of each row
-  Eigen::VectorXd residual_;  // m/s: (x - P(x - scale v)) / scale
-  Eigen::VectorXd trial_;     // x - scale v
+  Eigen::VectorXd scale_;        // kg, of each row
+  Eigen::VectorXd admittance_;   // 1/kg, its inverse
+  std::vector<double> product_;  // m/s, A x
+  Eigen::VectorXd residual_;     // m/s: (x - P(x - scale v)) / scale
+  Eigen::VectorXd trial_;        // x - scale v
+  bool is_within_bounds_;        // the trial is: then the slope of the residual is A
   Eigen::VectorXd before_, step_;
   Eigen::MatrixXd slope_;
   Cholesky whole_;                               // of A

@@ -25,63 +25,89 @@ void ConstraintRows::clear() {
   problem_.blocks.clear();
 }
 
-double* ConstraintRows::values(Tree& tree) {
-  std::size_t found = used_;
-  while (found > 0 && trees_[found - 1].tree != &tree) --found;
-  if (found == 0) {
-    if (used_ == trees_.size()) trees_.emplace_back();
-    RowsOfTree& fresh = trees_[used_++];
-    fresh.tree = &tree;
-    fresh.rows.clear();
-    fresh.given.clear();
-    tree.factor();
-    found = used_;
+ConstraintRows::RowsOfTree& ConstraintRows::rows_of(Tree& tree) {
+  for (std::size_t i = used_; i > 0; --i) {
+    if (trees_[i - 1].tree == &tree) return trees_[i - 1];
   }
-  RowsOfTree& own = trees_[found - 1];
+  if (used_ == trees_.size()) trees_.emplace_back();
+  RowsOfTree& fresh = trees_[used_++];
+  fresh.tree = &tree;
+  fresh.width = Columns::in_groups(at(tree.dofs()));
+  fresh.rows.clear();
+  tree.factor();
+  return fresh;
+}
+
+double* ConstraintRows::values(RowsOfTree& own, int rows) const {
   if (own.rows.empty() || own.rows.back() != count() - 1) {
-    own.rows.push_back(count() - 1);
-    own.given.resize(own.given.size() + at(tree.dofs()), 0);
+    for (int row = count() - rows; row < count(); ++row) own.rows.push_back(row);
+    const std::size_t end = own.rows.size() * own.width;
+    if (own.given.size() < end) own.given.resize(2 * end);
+    std::fill_n(own.given.data() + end - at(rows) * own.width, at(rows) * own.width, 0.0);
   }
-  return own.given.data() + own.given.size() - at(tree.dofs());
+  return own.given.data() + (own.rows.size() - at(rows)) * own.width;
 }
 
-void ConstraintRows::add_way(const TreeBody& body, const Vector3& turn, const Vector3& push, const Vector3& point,
-                             double sign) {
+void ConstraintRows::add_way(const TreeBody& body, const Vector3* turns, const Vector3* pushes, int count,
+                             const Vector3& point, double sign) {
   if (body.tree == nullptr) return;
-  double* own = values(*body.tree);
-  const Vector3 moment = sign * (turn + (point - body.tree->origin()).cross(push));
-  const Vector3 force = sign * push;
-  body.tree->project(body.link, moment, force, own);
+  RowsOfTree& own = rows_of(*body.tree);
+  Action& action = actions_.emplace_back();
+  action.tree = body.tree;
+  action.link = body.link;
+  action.row = this->count() - count;
+  action.count = count;
+  const Four from_origin = lanes_of(point - body.tree->origin());
+  for (std::size_t i = 0; i < at(count); ++i) {
+    const Four push = sign * lanes_of(pushes[i]);
+    action.forces[i] = {sign * lanes_of(turns[i]) + cross(from_origin, push), push};
+  }
+  body.tree->project(body.link, action.forces.data(), count, values(own, count), own.width);
 }
 
-void ConstraintRows::act(const TreeBody& first, const TreeBody& second, const Vector3& turn, const Vector3& push,
-                         const Vector3& point) {
-  actions_.push_back({count() - 1, first, second, turn, push, point});
-  add_way(first, turn, push, point, 1);
-  add_way(second, turn, push, point, -1);
+void ConstraintRows::act(const TreeBody& first, const TreeBody& second, const Vector3* turns, const Vector3* pushes,
+                         int count, const Vector3& point) {
+  add_way(first, turns, pushes, count, point, 1);
+  add_way(second, turns, pushes, count, point, -1);
+}
+
+int ConstraintRows::add_rows(int count) {
+  const int first = this->count();
+  for (int i = 0; i < count; ++i) rows_.emplace_back().singular = kOfAnyRow;
+  return first;
 }
 
 int ConstraintRows::add_force(const TreeBody& first, const TreeBody& second, const Vector3& point,
                               const Vector3& direction) {
-  rows_.emplace_back().singular = kOfAnyRow;
-  act(first, second, Vector3(), direction, point);
-  return count() - 1;
+  const int row = add_rows(1);
+  const Vector3 no_torque;
+  act(first, second, &no_torque, &direction, 1, point);
+  return row;
+}
+
+int ConstraintRows::add_forces(const TreeBody& first, const TreeBody& second, const Vector3& point,
+                               const std::array<Vector3, 3>& directions) {
+  const int row = add_rows(3);
+  const std::array<Vector3, 3> no_torques;
+  act(first, second, no_torques.data(), directions.data(), 3, point);
+  return row;
 }
 
 int ConstraintRows::add_torque(const TreeBody& first, const TreeBody& second, const Vector3& axis) {
-  rows_.emplace_back().singular = kOfAnyRow;
-  act(first, second, axis, Vector3(), Vector3());
-  return count() - 1;
+  const int row = add_rows(1);
+  add_torque_to_last(first, second, axis);
+  return row;
 }
 
 void ConstraintRows::add_torque_to_last(const TreeBody& first, const TreeBody& second, const Vector3& axis) {
-  act(first, second, axis, Vector3(), Vector3());
+  const Vector3 no_force;
+  act(first, second, &axis, &no_force, 1, Vector3());
 }
 
 int ConstraintRows::add_dof(Tree& tree, int dof) {
-  rows_.emplace_back().singular = kOfAnyRow;
-  values(tree)[dof] = 1;
-  return count() - 1;
+  const int row = add_rows(1);
+  values(rows_of(tree), 1)[dof] = 1;
+  return row;
 }
 
 void ConstraintRows::set_of_contact(int row) { rows_[at(row)].singular = kOfContacts; }
@@ -102,56 +128,47 @@ void ConstraintRows::set(int row, double target, double softness, double start) 
 /// Adds the part of a tree to the problem.
 void ConstraintRows::gather(RowsOfTree& own) {
   const int rows = static_cast<int>(own.rows.size());
-  const int dofs = own.tree->dofs();
-  own.solved.set_zero(rows, dofs);
-  for (int r = 0; r < rows; ++r) {
-    const double* given = own.given.data() + at(r) * at(dofs);
-    double velocity = 0;
-    for (int k = 0; k < dofs; ++k) {
-      own.solved[k][r] = given[k];
-      velocity += given[k] * own.tree->rates()[k];
-    }
-    problem_.b[own.rows[at(r)]] -= velocity;
-  }
+  own.solved.set_rows(own.given.data(), rows, own.tree->dofs(), own.width);
+  sums_.resize(own.solved.length());
+  own.solved.multiply(own.tree->rates().data(), sums_.data());
+  for (std::size_t r = 0; r < own.rows.size(); ++r) problem_.b[own.rows[r]] -= sums_[r];
   const BranchedFactors& mass = own.tree->factors();
   mass.solve_upper(own.solved);
+  if (is_of_one_tree()) return problem_.a.set_weighted_square(own.solved, mass.inverse_diagonals());
   square_.set_weighted_square(own.solved, mass.inverse_diagonals());
   for (int c = 0; c < rows; ++c) {
-    const double* column = square_[c];
-    for (int r = c; r < rows; ++r) problem_.a(own.rows[at(r)], own.rows[at(c)]) += column[r];
+    for (int r = 0; r < rows; ++r) problem_.a(own.rows[at(r)], own.rows[at(c)]) += square_(r, c);
   }
 }
 
 /// u += L^-1 D^-1 L^-T J^T x
-void ConstraintRows::apply(const RowsOfTree& own) {
+void ConstraintRows::apply(RowsOfTree& own) {
   const BranchedFactors& mass = own.tree->factors();
-  change_.resize(own.tree->dofs());
-  for (int k = 0; k < own.tree->dofs(); ++k) {
-    double sum = 0;
-    for (int r = 0; r < own.solved.rows(); ++r) sum += own.solved[k][r] * problem_.x[own.rows[at(r)]];
-    change_[k] = sum * mass.inverse_diagonal(k);
-  }
-  mass.solve_lower(change_.data());
-  own.tree->rates() += change_;
+  const int dofs = own.tree->dofs();
+  impulses_.assign(own.solved.length(), 0);
+  for (std::size_t r = 0; r < own.rows.size(); ++r) impulses_[r] = problem_.x[own.rows[r]];
+  sums_.resize(at(dofs));
+  own.solved.multiply_transposed(impulses_.data(), sums_.data());
+  for (int k = 0; k < dofs; ++k) sums_[at(k)] *= mass.inverse_diagonal(k);
+  mass.solve_lower(sums_.data());
+  for (int k = 0; k < dofs; ++k) own.tree->rates()[k] += sums_[at(k)];
 }
 
 void ConstraintRows::add_impulses(const Tree& tree, std::vector<TreeMomentum>& links) const {
   for (const Action& action : actions_) {
-    const auto add = [&](const TreeBody& body, double impulse) {
-      if (body.tree != &tree) return;
-      TreeMomentum& link = links[at(body.link)];
-      link.linear += action.push * impulse;
-      link.angular += (action.turn + (action.point - tree.origin()).cross(action.push)) * impulse;
-    };
-    add(action.first, problem_.x[action.row]);
-    add(action.second, -problem_.x[action.row]);
+    if (action.tree != &tree) continue;
+    SpatialLanes sum;
+    for (int i = 0; i < action.count; ++i) sum.add(problem_.x[action.row + i], action.forces[at(i)]);
+    TreeMomentum& link = links[at(action.link)];
+    link.linear += vector_of(sum.linear);
+    link.angular += vector_of(sum.angular);
   }
 }
 
 /// Leaves a row out along which nothing can move, such as that of a contact of a fixed link.
 void ConstraintRows::leave_out(int row) {
-  problem_.a.row(row).setZero();
-  problem_.a.col(row).setZero();
+  problem_.a.matrix().row(row).setZero();
+  problem_.a.matrix().col(row).setZero();
   problem_.a(row, row) = 1;
   problem_.b[row] = problem_.x[row] = 0;
 }
@@ -168,7 +185,7 @@ void ConstraintRows::pass_impacts_on() {
 ConeResult ConstraintRows::solve() {
   const int n = count();
   if (n == 0) return {};
-  problem_.a.setZero(n, n);
+  if (!is_of_one_tree()) problem_.a.set_zero(n, n);
   problem_.b.resize(n);
   problem_.x.resize(n);
   for (int r = 0; r < n; ++r) {
@@ -176,11 +193,10 @@ ConeResult ConstraintRows::solve() {
     problem_.x[r] = rows_[at(r)].start;
   }
   for (std::size_t i = 0; i < used_; ++i) gather(trees_[i]);
-  const double largest = problem_.a.diagonal().maxCoeff();
+  const double largest = problem_.a.matrix().diagonal().maxCoeff();
   for (int c = 0; c < n; ++c) {
     if (problem_.a(c, c) <= kImmovable * largest) leave_out(c);
     problem_.a(c, c) += std::max(rows_[at(c)].softness, rows_[at(c)].singular * problem_.a(c, c));
-    for (int r = c + 1; r < n; ++r) problem_.a(c, r) = problem_.a(r, c);
   }
   pass_impacts_on();
   const ConeResult result = solver_.solve(problem_);

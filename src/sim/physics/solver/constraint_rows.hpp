@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -27,6 +28,9 @@ class ConstraintRows {
 
   /// A force along `direction` at a point, on the first body, and the opposite on the second. Returns its number.
   int add_force(const TreeBody& first, const TreeBody& second, const Vector3& point, const Vector3& direction);
+  /// Likewise three rows; returns the number of the first.
+  int add_forces(const TreeBody& first, const TreeBody& second, const Vector3& point,
+                 const std::array<Vector3, 3>& directions);
   int add_torque(const TreeBody& first, const TreeBody& second, const Vector3& axis);
   /// Adds a torque, likewise, to the row that was added last.
   void add_torque_to_last(const TreeBody& first, const TreeBody& second, const Vector3& axis);
@@ -57,17 +61,20 @@ class ConstraintRows {
     double start = 0;
     double singular = 0;  // least part of the diagonal element that is added to it
   };
-  /// What a row does to two links per impulse.
+  /// What consecutive rows do to a link per impulse.
   struct Action {
-    int row;
-    TreeBody first, second;
-    Vector3 turn, push, point;
+    const Tree* tree;
+    int link;
+    int row;  // the first
+    int count;
+    std::array<SpatialLanes, 3> forces;  // about the tree's origin
   };
   /// The rows that act on one tree; those that also act on another one are in both.
   struct RowsOfTree {
     Tree* tree = nullptr;
+    std::size_t width = 0;      // of its degrees of freedom, in groups of four
     std::vector<int> rows;      // their numbers
-    std::vector<double> given;  // J: rows x degrees of freedom, row by row; 0 beside the ways to the world
+    std::vector<double> given;  // J: row by row of this width; 0 beside the ways to the world
     Columns solved;             // J L^-1
   };
 
@@ -75,23 +82,29 @@ class ConstraintRows {
   /// Starts from the impulses of impacts that travel through several bodies.
   void pass_impacts_on();
   void leave_out(int row);
-  void apply(const RowsOfTree& own);
-  /// Adds a force and a torque to the last row.
-  void act(const TreeBody& first, const TreeBody& second, const Vector3& turn, const Vector3& push,
+  void apply(RowsOfTree& own);
+  /// Whether the only tree has all rows.
+  bool is_of_one_tree() const { return used_ == 1 && trees_.front().rows.size() == rows_.size(); }
+  int add_rows(int count);
+  /// Adds forces and torques to the last rows: `count` of them, per impulse, at a point.
+  void act(const TreeBody& first, const TreeBody& second, const Vector3* turns, const Vector3* pushes, int count,
            const Vector3& point);
-  /// The values of the last row in a tree, which are 0 at first.
-  double* values(Tree& tree);
-  void add_way(const TreeBody& body, const Vector3& turn, const Vector3& push, const Vector3& point, double sign);
+  RowsOfTree& rows_of(Tree& tree);
+  /// The values of the last rows in a tree, which are 0 at first.
+  double* values(RowsOfTree& own, int rows) const;
+  void add_way(const TreeBody& body, const Vector3* turns, const Vector3* pushes, int count, const Vector3& point,
+               double sign);
 
   std::vector<Row> rows_;
-  std::vector<Action> actions_;    // of forces and torques
+  std::vector<Action> actions_;    // of forces and torques on links
   std::vector<RowsOfTree> trees_;  // the first `used_` of them; the others keep their memory
   std::size_t used_ = 0;
   ImpactChain impacts_;
   ConeProblem problem_;
   ConeSolver solver_;
   Columns square_;
-  Eigen::VectorXd change_;
+  std::vector<double> sums_;      // by row or degree of freedom of a tree
+  std::vector<double> impulses_;  // of the rows of a tree
 };
 
 }  // namespace bubblesim

@@ -16,7 +16,7 @@ class Directions {
   void add();
   void set(int dof, const SpatialLanes& direction);
   /// Adds what a force, and its moment about the origin, do along degrees of freedom with consecutive numbers.
-  void project(const Vector3& moment, const Vector3& force, int first, int count, double* to) const;
+  void project(const SpatialLanes& force, int first, int count, double* to) const;
 
  private:
   std::array<std::vector<double>, 6> components_;  // of `turn`, then of `slide`, by degree of freedom

@@ -100,9 +100,9 @@ class Tree {
   void factor();
   /// After factor().
   const BranchedFactors& factors() const { return factors_; }
-  /// Adds to the degrees of freedom that move a link, from `forces` of all, what a force and its moment about the
-  /// origin do along them. After factor().
-  void project(int link, const Vector3& moment, const Vector3& force, double* forces) const;
+  /// Adds what forces, with their moments about the origin, do along the degrees of freedom that move a link: to one row
+  /// for each, `width` numbers apart, which has a place for all degrees of freedom. After factor().
+  void project(int link, const SpatialLanes* forces, int count, double* rows, std::size_t width) const;
 
   /// Moves the joints by the rates.
   void move(double step);
@@ -164,7 +164,7 @@ class Tree {
   void accelerate(int link, const double* rates);
   void find_need(int link, const double* rates, const Wrench& wrench);
   void gather_needs(const double* forces);
-  void project(const Vector3& moment, const Vector3& force, int first, int count, double* forces) const;
+  void project(const SpatialLanes& force, int first, int count, double* along) const;
   void find_change_of_base();
   void find_change(int link);
   void set_momentum(int root, const TreeMomentum& wanted);

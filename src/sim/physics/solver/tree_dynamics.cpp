@@ -56,7 +56,7 @@ BUBBLESIM_SIMD void Tree::add_impulses(const std::vector<Twist>& velocities, dou
   }
 }
 
-void Tree::factor() {
+BUBBLESIM_SIMD void Tree::factor() {
   for (int k = 0; k < dofs(); ++k) {
     const TreeDof& dof = dofs_[index(k)];
     directions_.set(k, dof.direction);
@@ -65,30 +65,33 @@ void Tree::factor() {
   factors_.set_zero();
   for (int k = 0; k < dofs(); ++k) {
     const TreeDof& dof = dofs_[index(k)];
-    const Vector3 moment = vector_of(dof.passes.angular);
-    const Vector3 force = vector_of(dof.passes.linear);
     for (int last = before(k); last >= 0;) {
       const int first = factors_.first_of_run(last);
-      project(moment, force, first, last - first + 1, &factors_.entry(k, first));
+      project(dof.passes, first, last - first + 1, &factors_.entry(k, first));
       last = before(first);
     }
   }
 }
 
-void Tree::project(int link, const Vector3& moment, const Vector3& force, double* forces) const {
+BUBBLESIM_SIMD void Tree::project(int link, const SpatialLanes* forces, int count, double* rows,
+                                  std::size_t width) const {
   for (int last = last_dof(link); last >= 0;) {
     const int first = factors_.first_of_run(last);
-    project(moment, force, first, last - first + 1, forces + first);
+    for (int i = 0; i < count; ++i) project(forces[i], first, last - first + 1, rows + index(i) * width + first);
     last = before(first);
   }
 }
 
-/// Likewise to degrees of freedom with consecutive numbers.
-void Tree::project(const Vector3& moment, const Vector3& force, int first, int count, double* forces) const {
-  if (first > 0 || !numbers_[0].is_base) return directions_.project(moment, force, first, count, forces);
-  for (int k = 0; k < std::min(count, 3); ++k) forces[k] += moment[k];
-  for (int k = 3; k < std::min(count, 6); ++k) forces[k] += force[k - 3];
-  if (count > 6) directions_.project(moment, force, 6, count - 6, forces + 6);
+/// Adds what a force does along degrees of freedom with consecutive numbers.
+BUBBLESIM_INLINE void Tree::project(const SpatialLanes& force, int first, int count, double* along) const {
+  constexpr int kFew = 4;  // as of wheels: a call would take longer
+  int done = 0;
+  if (first == 0 && numbers_[0].is_base) {
+    done = std::min(count, 6);
+    for (int k = 0; k < done; ++k) along[k] += k < 3 ? force.angular[k] : force.linear[k - 3];
+  }
+  if (count - done > kFew) return directions_.project(force, first + done, count - done, along + done);
+  for (; done < count; ++done) along[done] += force.along(dofs_[index(first + done)].direction);
 }
 
 /// Computes the acceleration of a link while the rates are constant; that of the parent is there.

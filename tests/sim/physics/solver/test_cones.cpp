@@ -119,7 +119,8 @@ TEST(ConeProblem, FindsASolutionOfRandomProblems) {
     ConeProblem problem;
     Eigen::MatrixXd root(n, n + 1);
     for (Eigen::Index i = 0; i < root.size(); ++i) root.data()[i] = any(random);
-    problem.a = root * root.transpose() / n + 1e-3 * Eigen::MatrixXd::Identity(n, n);
+    problem.a.set_zero(n, n);
+    problem.a.matrix() = root * root.transpose() / n + 1e-3 * Eigen::MatrixXd::Identity(n, n);
     problem.b.resize(n);
     for (int i = 0; i < n; ++i) problem.b[i] = any(random);
     problem.x = Eigen::VectorXd::Zero(n);
@@ -146,7 +147,7 @@ TEST(ConeProblem, FindsASolutionOfRandomProblems) {
     EXPECT_LT(result.residual, 1e-6) << trial << ": " << result.newton_steps << " steps, " << result.sweeps
                                      << " sweeps";
     // By the laws themselves.
-    const Eigen::VectorXd v = problem.a * problem.x - problem.b;
+    const Eigen::VectorXd v = problem.a.matrix() * problem.x - problem.b;
     for (int i = 0; i < 3 * contacts; i += 3) {
       EXPECT_GE(problem.x[i], -1e-6);
       EXPECT_GE(v[i], -1e-5);
