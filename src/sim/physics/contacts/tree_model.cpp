@@ -6,6 +6,7 @@
 
 #include "physics/ode/body_state.hpp"
 #include "physics/ode/ode_math.hpp"
+#include "scene/simd.hpp"
 
 namespace bubblesim {
 namespace {
@@ -230,11 +231,8 @@ void TreeModel::begin(const Vector3& gravity, double step) {
     Wrench& wrench = wrenches_[i];
     wrench = {to_vector(dBodyGetForce(body)), to_vector(dBodyGetTorque(body))};
     if (dBodyGetGravityMode(body) != 0) wrench.force += gravity * link.mass;
-    if (!keeps_momenta_) continue;
-    loose_[i] = tree_.momentum(static_cast<int>(i), velocities_[i]);
-    loose_[i].linear += wrench.force * step;
-    loose_[i].angular += (wrench.torque + (poses_[i].position - tree_.origin()).cross(wrench.force)) * step;
   }
+  if (keeps_momenta_) tree_.release(velocities_, wrenches_, step, loose_);
   // A velocity that the joints do not allow, such as one that was set, acts as an impulse.
   tree_.add_impulses(velocities_, step, wrenches_);
   tree_.push(step, wrenches_, forces_);
@@ -249,16 +247,10 @@ void TreeModel::move(const ConstraintRows& rows, double step) {
 }
 
 /// Only what acts on a floating robot from outside changes its momentum: the efforts of its joints do not.
-void TreeModel::keep_momenta(const Vector3& origin_before) {
-  momenta_.assign(parts_.size(), {});
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    loose_[i].angular += (origin_before - tree_.origin()).cross(loose_[i].linear);
-    const int root = tree_.free_root(static_cast<int>(i));
-    if (root < 0) continue;
-    momenta_[static_cast<std::size_t>(root)].linear += loose_[i].linear;
-    momenta_[static_cast<std::size_t>(root)].angular += loose_[i].angular;
-  }
-  tree_.set_momenta(momenta_);
+BUBBLESIM_SIMD void TreeModel::keep_momenta(const Vector3& origin_before) {
+  const Four moved = lanes_of(origin_before - tree_.origin());
+  for (SpatialLanes& momentum : loose_) momentum.angular += cross(moved, momentum.linear);
+  tree_.set_momenta(loose_);
 }
 
 /// What a joint transmits is what the links behind it have got beside what acts on them from outside.
@@ -267,17 +259,16 @@ void TreeModel::report_reactions() {
   for (const TreeJoint& joint : tree_joints_) {
     WrenchMeter* meter = model_.joints[joint.joint].meter.get();
     if (meter == nullptr) continue;
-    TreeMomentum sum;
+    SpatialLanes sum;
     is_behind.assign(parts_.size(), false);
     for (int i = joint.child; i < tree_.links(); ++i) {
       const int parent = tree_.parent(i);
       if (i != joint.child && (parent < 0 || !is_behind[static_cast<std::size_t>(parent)])) continue;
       is_behind[static_cast<std::size_t>(i)] = true;
-      const TreeMomentum now = tree_.momentum(i);
-      sum.linear += now.linear - loose_[static_cast<std::size_t>(i)].linear;
-      sum.angular += now.angular - loose_[static_cast<std::size_t>(i)].angular;
+      sum.add(tree_.momentum(i));
+      sum.add(-1, loose_[static_cast<std::size_t>(i)]);
     }
-    meter->report({sum.linear, sum.angular}, tree_.origin());
+    meter->report({vector_of(sum.linear), vector_of(sum.angular)}, tree_.origin());
   }
 }
 

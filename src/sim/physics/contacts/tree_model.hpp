@@ -91,9 +91,8 @@ class TreeModel {
   std::vector<Pose> poses_;
   std::vector<Twist> velocities_;
   std::vector<Wrench> wrenches_;
-  bool keeps_momenta_ = false;         // for floating roots, and for force-torque sensors
-  std::vector<TreeMomentum> loose_;    // the links' at the end of the substep if they were not jointed
-  std::vector<TreeMomentum> momenta_;  // of what links of kFree carry, likewise
+  bool keeps_momenta_ = false;       // for floating roots, and for force-torque sensors
+  std::vector<SpatialLanes> loose_;  // the links' momenta at the end of the substep if they were not jointed
   Eigen::VectorXd forces_, added_;
 };
 

@@ -2,12 +2,13 @@
 #include "physics/contacts/tree_solver.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <memory>
 #include <tuple>
 
 #include "physics/ode/constraint_defaults.hpp"
 #include "physics/ode/ode_math.hpp"
+#include "scene/simd.hpp"
 
 namespace bubblesim {
 namespace {
@@ -17,6 +18,16 @@ Vector3 velocity_at(const Link& link, const dReal* point) {
   dVector3 velocity;
   dBodyGetPointVel(link.body.get(), point[0], point[1], point[2], velocity);
   return to_vector(velocity);
+}
+
+BUBBLESIM_INLINE Four lanes_of(const dReal* vector) { return Four{vector[0], vector[1], vector[2], 0}; }
+
+/// A direction across a normal, as ODE's dPlaneSpace().
+BUBBLESIM_INLINE Four tangent_of(const dReal* n) {
+  const bool is_steep = std::abs(n[2]) > M_SQRT1_2;
+  const double part = is_steep ? n[2] : n[0];
+  const double factor = 1 / std::sqrt(part * part + n[1] * n[1]);
+  return is_steep ? Four{0, -n[2] * factor, n[1] * factor, 0} : Four{-n[1] * factor, n[0] * factor, 0, 0};
 }
 
 }  // namespace
@@ -97,17 +108,20 @@ void TreeSolver::solve_island(Substep& substep) {
                                       models_.begin() + static_cast<std::ptrdiff_t>(next_model_),
                                       [&](const IslandModel& each) { return each.model->would_turn_too_far(step); });
   if (is_refused) return substep.contacts.islands.set_by_trees(island, false);
-  for (const PointRows& at : points_) {
-    const Vector3 n = to_vector(at.point->contact.geom.normal);
-    at.point->force = (n * rows_.impulse(at.normal) + at.tangent1 * rows_.impulse(at.normal + 1) +
-                       at.tangent2 * rows_.impulse(at.normal + 2)) /
-                      step;
-    if (at.spin < 0) continue;
-    at.point->torque = (at.tangent1 * rows_.impulse(at.spin) + at.tangent2 * rows_.impulse(at.spin + 1) +
-                        n * rows_.impulse(at.spin + 2)) /
-                       step;
-  }
+  report_forces(step);
   each_model([&](TreeModel& model) { model.end(rows_, step); });
+}
+
+BUBBLESIM_SIMD void TreeSolver::report_forces(double step) {
+  for (const PointRows& at : points_) {
+    const auto sum = [&](int normal, int tangent1, int tangent2) -> Vector3 {
+      return vector_of((at.axes[0] * rows_.impulse(normal) + at.axes[1] * rows_.impulse(tangent1) +
+                        at.axes[2] * rows_.impulse(tangent2)) *
+                       (1 / step));
+    };
+    at.point->force = sum(at.normal, at.normal + 1, at.normal + 2);
+    if (at.spin >= 0) at.point->torque = sum(at.spin + 2, at.spin, at.spin + 1);
+  }
 }
 
 void TreeSolver::add_hold(const Hold& hold, double step) {
@@ -127,10 +141,10 @@ void TreeSolver::add_hold(const Hold& hold, double step) {
 void TreeSolver::add_pair(const IslandPair& island_pair, Substep& substep) {
   const FoundPair& pair = *island_pair.pair;
   std::vector<FoundContact>& found = substep.contacts.found.points;
-  ExpectedContacts expected;
-  if (island_pair.remembered != nullptr) {
-    expected = expect(substep.contacts.memory, *island_pair.remembered, pair, &found[pair.begin], substep.duration);
-  }
+  const ExpectedContacts expected = island_pair.remembered == nullptr
+                                        ? ExpectedContacts()
+                                        : expect(substep.contacts.memory, *island_pair.remembered, pair,
+                                                 &found[pair.begin], substep.duration);
   const TreeBody a = body_of(*pair.first, substep);
   const TreeBody b = body_of(*pair.second, substep);
   for (std::size_t i = 0; i < static_cast<std::size_t>(pair.count); ++i) {
@@ -138,23 +152,19 @@ void TreeSolver::add_pair(const IslandPair& island_pair, Substep& substep) {
   }
 }
 
-void TreeSolver::add_point(const TreeBody& a, const TreeBody& b, const FoundPair& pair, FoundContact& found,
-                           const ExpectedContact& start, double step) {
+BUBBLESIM_SIMD void TreeSolver::add_point(const TreeBody& a, const TreeBody& b, const FoundPair& pair,
+                                          FoundContact& found, const ExpectedContact& start, double step) {
   const dSurfaceParameters& surface = found.contact.surface;
   const Vector3 position = to_vector(found.contact.geom.pos);
-  const Vector3 n = to_vector(found.contact.geom.normal);
   PointRows& point = points_.emplace_back();
   point.point = &found;
-  if ((surface.mode & dContactFDir1) != 0) {
-    point.tangent1 = to_vector(found.contact.fdir1);
-  } else {
-    dVector3 p;
-    dVector3 q;
-    dPlaneSpace(found.contact.geom.normal, p, q);
-    point.tangent1 = to_vector(p);
-  }
-  point.tangent2 = n.cross(point.tangent1);
-  const Vector3 force = n * start.normal + start.friction;
+  const Four normal = lanes_of(found.contact.geom.normal);
+  const Four tangent =
+      (surface.mode & dContactFDir1) != 0 ? lanes_of(found.contact.fdir1) : tangent_of(found.contact.geom.normal);
+  point.axes[0] = normal;
+  point.axes[1] = tangent;
+  point.axes[2] = cross(normal, tangent);
+  const Four force = normal * start.normal + lanes_of(start.friction);
 
   // As in ContactSolver::add_point().
   const double cfm = (surface.mode & dContactSoftCFM) != 0 ? surface.soft_cfm : kConstraintSoftness;
@@ -162,7 +172,7 @@ void TreeSolver::add_point(const TreeBody& a, const TreeBody& b, const FoundPair
   double target = surface.soft_erp / step * std::max(found.contact.geom.depth - kSurfaceLayer, 0.0) + motion;
   if ((surface.mode & dContactBounce) != 0) {
     const dReal* at = found.contact.geom.pos;
-    const double incoming = n.dot(velocity_at(*pair.second->link, at) - velocity_at(*pair.first->link, at));
+    const double incoming = to_vector(found.contact.geom.normal).dot(velocity_at(*pair.second->link, at) - velocity_at(*pair.first->link, at));
     const Impact impact{rows_.count(), -incoming, surface.bounce, surface.bounce_vel, motion, target};
     rows_.add_impact(impact);
     target = impact.target_alone();
@@ -170,11 +180,13 @@ void TreeSolver::add_point(const TreeBody& a, const TreeBody& b, const FoundPair
   // A rigid contact yields only to what it did not bear before: a robot does not sink.
   if (!found.has_own_correction) target += cfm * std::max(start.normal, 0.0);
 
-  const std::array<Vector3, 3> directions = {n, point.tangent1, point.tangent2};
-  point.normal = rows_.add_forces(a, b, position, directions);
+  SpatialLanes forces[3];
+  for (int i = 0; i < 3; ++i) forces[i].linear = point.axes[i];
+  point.normal = rows_.add_forces(a, b, position, forces, 3);
   const auto set = [&](int number, double wanted, double softness) {
     const int row = point.normal + number;
-    rows_.set(row, wanted, softness / step, force.dot(directions[static_cast<std::size_t>(number)]) * step);
+    const double expected = lanes_dot(force, point.axes[number]);
+    rows_.set(row, wanted, softness / step, expected * step);
     rows_.set_of_contact(row);
   };
   set(0, target, cfm);
@@ -182,10 +194,10 @@ void TreeSolver::add_point(const TreeBody& a, const TreeBody& b, const FoundPair
       (surface.mode & dContactSlip1) != 0 ? surface.slip1 : 0);
   set(2, (surface.mode & dContactMotion2) != 0 ? surface.motion2 : 0,
       (surface.mode & dContactSlip2) != 0 ? surface.slip2 : 0);
-  ConeBlock normal;
-  normal.row = point.normal;
-  normal.lower = 0;
-  rows_.bound(normal);
+  ConeBlock bearing;
+  bearing.row = point.normal;
+  bearing.lower = 0;
+  rows_.bound(bearing);
   const double mu2 = (surface.mode & dContactMu2) != 0 ? surface.mu2 : surface.mu;
   const auto bound = [&](int row, int size, double mu) {
     ConeBlock block;
@@ -202,11 +214,13 @@ void TreeSolver::add_point(const TreeBody& a, const TreeBody& b, const FoundPair
     bound(point.normal + 2, 1, mu2);
   }
   if ((surface.mode & dContactRolling) == 0) return;
-  for (const Vector3& axis : {point.tangent1, point.tangent2, n}) {
-    const int row = rows_.add_torque(a, b, axis);
-    rows_.set(row, 0, 0, start.torque.dot(axis) * step);
-    rows_.set_of_contact(row);
-    if (point.spin < 0) point.spin = row;
+  const Four torque = lanes_of(start.torque);
+  SpatialLanes torques[3];
+  for (int i = 0; i < 3; ++i) torques[i].angular = point.axes[(i + 1) % 3];  // the normal comes last
+  point.spin = rows_.add_forces(a, b, position, torques, 3);
+  for (int i = 0; i < 3; ++i) {
+    rows_.set(point.spin + i, 0, 0, lanes_dot(torque, torques[i].angular) * step);
+    rows_.set_of_contact(point.spin + i);
   }
   bound(point.spin, 2, surface.rho);
   bound(point.spin + 2, 1, surface.rhoN);

@@ -33,7 +33,7 @@ class TreeSolver {
     FoundContact* point = nullptr;
     int normal = 0;
     int spin = -1;  // of its resistances to rolling (2) and spinning; -1: none
-    Vector3 tangent1, tangent2;
+    Four axes[3];  // the normal and the directions of friction
   };
 
   void gather(Substep& substep);
@@ -42,6 +42,7 @@ class TreeSolver {
   void add_pair(const IslandPair& pair, Substep& substep);
   void add_point(const TreeBody& a, const TreeBody& b, const FoundPair& pair, FoundContact& found,
                  const ExpectedContact& start, double step);
+  void report_forces(double step);
   TreeBody body_of(const Collider& collider, const Substep& substep) const;
 
   std::vector<IslandModel> models_;  // that are awake, island by island

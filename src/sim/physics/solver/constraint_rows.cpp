@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "physics/ode/constraint_defaults.hpp"
+#include "scene/simd.hpp"
 
 namespace bubblesim {
 namespace {
@@ -48,8 +49,8 @@ double* ConstraintRows::values(RowsOfTree& own, int rows) const {
   return own.given.data() + (own.rows.size() - at(rows)) * own.width;
 }
 
-void ConstraintRows::add_way(const TreeBody& body, const Vector3* turns, const Vector3* pushes, int count,
-                             const Vector3& point, double sign) {
+void ConstraintRows::act(const TreeBody& body, const Vector3& point, double sign, const SpatialLanes* forces,
+                         int count) {
   if (body.tree == nullptr) return;
   RowsOfTree& own = rows_of(*body.tree);
   Action& action = actions_.emplace_back();
@@ -57,18 +58,14 @@ void ConstraintRows::add_way(const TreeBody& body, const Vector3* turns, const V
   action.link = body.link;
   action.row = this->count() - count;
   action.count = count;
-  const Four from_origin = lanes_of(point - body.tree->origin());
-  for (std::size_t i = 0; i < at(count); ++i) {
-    const Four push = sign * lanes_of(pushes[i]);
-    action.forces[i] = {sign * lanes_of(turns[i]) + cross(from_origin, push), push};
-  }
-  body.tree->project(body.link, action.forces.data(), count, values(own, count), own.width);
+  std::copy_n(forces, count, action.forces.begin());
+  body.tree->project(body.link, point, sign, action.forces.data(), count, values(own, count), own.width);
 }
 
-void ConstraintRows::act(const TreeBody& first, const TreeBody& second, const Vector3* turns, const Vector3* pushes,
-                         int count, const Vector3& point) {
-  add_way(first, turns, pushes, count, point, 1);
-  add_way(second, turns, pushes, count, point, -1);
+void ConstraintRows::act(const TreeBody& first, const TreeBody& second, const Vector3& point,
+                         const SpatialLanes* forces, int count) {
+  act(first, point, 1, forces, count);
+  act(second, point, -1, forces, count);
 }
 
 int ConstraintRows::add_rows(int count) {
@@ -77,31 +74,27 @@ int ConstraintRows::add_rows(int count) {
   return first;
 }
 
-int ConstraintRows::add_force(const TreeBody& first, const TreeBody& second, const Vector3& point,
-                              const Vector3& direction) {
-  const int row = add_rows(1);
-  const Vector3 no_torque;
-  act(first, second, &no_torque, &direction, 1, point);
+int ConstraintRows::add_forces(const TreeBody& first, const TreeBody& second, const Vector3& point,
+                               const SpatialLanes* forces, int count) {
+  const int row = add_rows(count);
+  act(first, second, point, forces, count);
   return row;
 }
 
-int ConstraintRows::add_forces(const TreeBody& first, const TreeBody& second, const Vector3& point,
-                               const std::array<Vector3, 3>& directions) {
-  const int row = add_rows(3);
-  const std::array<Vector3, 3> no_torques;
-  act(first, second, no_torques.data(), directions.data(), 3, point);
-  return row;
+int ConstraintRows::add_force(const TreeBody& first, const TreeBody& second, const Vector3& point,
+                              const Vector3& direction) {
+  const SpatialLanes force{Four{}, lanes_of(direction)};
+  return add_forces(first, second, point, &force, 1);
 }
 
 int ConstraintRows::add_torque(const TreeBody& first, const TreeBody& second, const Vector3& axis) {
-  const int row = add_rows(1);
-  add_torque_to_last(first, second, axis);
-  return row;
+  const SpatialLanes torque{lanes_of(axis), Four{}};
+  return add_forces(first, second, Vector3(), &torque, 1);
 }
 
 void ConstraintRows::add_torque_to_last(const TreeBody& first, const TreeBody& second, const Vector3& axis) {
-  const Vector3 no_force;
-  act(first, second, &axis, &no_force, 1, Vector3());
+  const SpatialLanes torque{lanes_of(axis), Four{}};
+  act(first, second, Vector3(), &torque, 1);
 }
 
 int ConstraintRows::add_dof(Tree& tree, int dof) {
@@ -154,14 +147,11 @@ void ConstraintRows::apply(RowsOfTree& own) {
   for (int k = 0; k < dofs; ++k) own.tree->rates()[k] += sums_[at(k)];
 }
 
-void ConstraintRows::add_impulses(const Tree& tree, std::vector<TreeMomentum>& links) const {
+BUBBLESIM_SIMD void ConstraintRows::add_impulses(const Tree& tree, std::vector<SpatialLanes>& links) const {
   for (const Action& action : actions_) {
     if (action.tree != &tree) continue;
-    SpatialLanes sum;
-    for (int i = 0; i < action.count; ++i) sum.add(problem_.x[action.row + i], action.forces[at(i)]);
-    TreeMomentum& link = links[at(action.link)];
-    link.linear += vector_of(sum.linear);
-    link.angular += vector_of(sum.angular);
+    SpatialLanes& link = links[at(action.link)];
+    for (int i = 0; i < action.count; ++i) link.add(problem_.x[action.row + i], action.forces[at(i)]);
   }
 }
 

@@ -23,14 +23,16 @@ struct TreeBody {
 
 class ConstraintRows {
  public:
+  static constexpr int kMostAtOnce = 3;
+
   void clear();
   int count() const { return static_cast<int>(rows_.size()); }
 
   /// A force along `direction` at a point, on the first body, and the opposite on the second. Returns its number.
   int add_force(const TreeBody& first, const TreeBody& second, const Vector3& point, const Vector3& direction);
-  /// Likewise three rows; returns the number of the first.
-  int add_forces(const TreeBody& first, const TreeBody& second, const Vector3& point,
-                 const std::array<Vector3, 3>& directions);
+  /// Likewise rows for as many forces with moments about the point, `kMostAtOnce` at most; returns the number of the first.
+  int add_forces(const TreeBody& first, const TreeBody& second, const Vector3& point, const SpatialLanes* forces,
+                 int count);
   int add_torque(const TreeBody& first, const TreeBody& second, const Vector3& axis);
   /// Adds a torque, likewise, to the row that was added last.
   void add_torque_to_last(const TreeBody& first, const TreeBody& second, const Vector3& axis);
@@ -52,7 +54,7 @@ class ConstraintRows {
   double impulse(int row) const { return problem_.x[row]; }
   /// Adds the impulses of forces and torques, which act between links or on the world, to the momenta of a tree's
   /// links, about the origin that it had when the rows were added.
-  void add_impulses(const Tree& tree, std::vector<TreeMomentum>& links) const;
+  void add_impulses(const Tree& tree, std::vector<SpatialLanes>& links) const;
 
  private:
   struct Row {
@@ -67,7 +69,7 @@ class ConstraintRows {
     int link;
     int row;  // the first
     int count;
-    std::array<SpatialLanes, 3> forces;  // about the tree's origin
+    std::array<SpatialLanes, kMostAtOnce> forces;  // about the tree's origin
   };
   /// The rows that act on one tree; those that also act on another one are in both.
   struct RowsOfTree {
@@ -86,14 +88,12 @@ class ConstraintRows {
   /// Whether the only tree has all rows.
   bool is_of_one_tree() const { return used_ == 1 && trees_.front().rows.size() == rows_.size(); }
   int add_rows(int count);
-  /// Adds forces and torques to the last rows: `count` of them, per impulse, at a point.
-  void act(const TreeBody& first, const TreeBody& second, const Vector3* turns, const Vector3* pushes, int count,
-           const Vector3& point);
+  /// Adds forces with moments about a point to the last rows.
+  void act(const TreeBody& first, const TreeBody& second, const Vector3& point, const SpatialLanes* forces, int count);
   RowsOfTree& rows_of(Tree& tree);
   /// The values of the last rows in a tree, which are 0 at first.
   double* values(RowsOfTree& own, int rows) const;
-  void add_way(const TreeBody& body, const Vector3* turns, const Vector3* pushes, int count, const Vector3& point,
-               double sign);
+  void act(const TreeBody& body, const Vector3& point, double sign, const SpatialLanes* forces, int count);
 
   std::vector<Row> rows_;
   std::vector<Action> actions_;    // of forces and torques on links

@@ -40,12 +40,6 @@ struct TreeJointState {
   Vector3 place;     ///< m, of kFree: the centre of mass in the world
 };
 
-/// Of links that hang together.
-struct TreeMomentum {
-  Vector3 linear;   ///< N s
-  Vector3 angular;  ///< N m s, about the origin of the tree
-};
-
 class Tree {
  public:
   /// Adds a link; returns its number.
@@ -100,9 +94,11 @@ class Tree {
   void factor();
   /// After factor().
   const BranchedFactors& factors() const { return factors_; }
-  /// Adds what forces, with their moments about the origin, do along the degrees of freedom that move a link: to one row
-  /// for each, `width` numbers apart, which has a place for all degrees of freedom. After factor().
-  void project(int link, const SpatialLanes* forces, int count, double* rows, std::size_t width) const;
+  /// Takes forces with their moments about a point, times `sign`, to the origin, and adds what they do along the degrees
+  /// of freedom that move a link: to one row for each, `width` numbers apart, which has a place for all degrees of
+  /// freedom. After factor().
+  void project(int link, const Vector3& point, double sign, SpatialLanes* forces, int count, double* rows,
+               std::size_t width) const;
 
   /// Moves the joints by the rates.
   void move(double step);
@@ -110,13 +106,18 @@ class Tree {
 
   /// The link of kFree that carries a link; -1: the world carries it.
   int free_root(int link) const { return links_[index(link)].free_root; }
-  /// Of a link with a velocity, at the present place.
-  TreeMomentum momentum(int link, const Twist& velocity) const;
-  /// Of a link, at the present place. After set_velocities().
-  TreeMomentum momentum(int link) const;
+  /// The momenta of links, N s and N m s about the origin, after a step with their velocities before it and the wrenches
+  /// on them, if they were not jointed.
+  void release(const std::vector<Twist>& velocities, const std::vector<Wrench>& wrenches, double step,
+               std::vector<SpatialLanes>& momenta) const;
+  /// Of a link, at the present place and velocity.
+  SpatialLanes momentum(int link) const {
+    const Body& body = bodies_[index(link)];
+    return body.momentum(body.velocity.at(body.centre), body.velocity.angular);
+  }
   /// Changes the velocities of links of kFree, and with them that of all that they carry as if it were rigid, until
-  /// these sums are their momenta. The rates keep their values.
-  void set_momenta(const std::vector<TreeMomentum>& wanted);
+  /// together they have the momenta given for these links. The rates keep their values.
+  void set_momenta(const std::vector<SpatialLanes>& momenta);
 
  private:
   struct Placed {
@@ -144,6 +145,12 @@ class Tree {
     SpatialLanes acceleration;  // the derivative of `velocity` while the rates are constant
     SpatialLanes needs;         // for this acceleration, with what its children need
     SpatialLanes change;        // of the velocity per second, by that of the rates
+
+    /// About the origin; `pace` is the velocity of the centre of mass.
+    BUBBLESIM_INLINE SpatialLanes momentum(const Four& pace, const Four& spin) const {
+      const Four linear = pace * mass;
+      return {cross(centre, linear) + inertia * spin, linear};
+    }
   };
 
   static std::size_t index(int number) { return static_cast<std::size_t>(number); }
@@ -167,7 +174,7 @@ class Tree {
   void project(const SpatialLanes& force, int first, int count, double* along) const;
   void find_change_of_base();
   void find_change(int link);
-  void set_momentum(int root, const TreeMomentum& wanted);
+  void set_momentum(int root, const std::vector<SpatialLanes>& momenta);
 
   std::vector<Placed> links_;
   std::vector<LinkDofs> numbers_;

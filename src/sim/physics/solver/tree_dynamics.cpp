@@ -73,8 +73,13 @@ BUBBLESIM_SIMD void Tree::factor() {
   }
 }
 
-BUBBLESIM_SIMD void Tree::project(int link, const SpatialLanes* forces, int count, double* rows,
-                                  std::size_t width) const {
+BUBBLESIM_SIMD void Tree::project(int link, const Vector3& point, double sign, SpatialLanes* forces, int count,
+                                  double* rows, std::size_t width) const {
+  const Four from_origin = lanes_of(point) - lanes_of(origin_);
+  for (int i = 0; i < count; ++i) {
+    const Four linear = forces[i].linear * sign;
+    forces[i] = {forces[i].angular * sign + cross(from_origin, linear), linear};
+  }
   for (int last = last_dof(link); last >= 0;) {
     const int first = factors_.first_of_run(last);
     for (int i = 0; i < count; ++i) project(forces[i], first, last - first + 1, rows + index(i) * width + first);

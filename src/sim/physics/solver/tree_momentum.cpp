@@ -6,17 +6,16 @@
 
 namespace bubblesim {
 
-TreeMomentum Tree::momentum(int link, const Twist& velocity) const {
-  const Body& body = bodies_[index(link)];
-  const Four linear = lanes_of(velocity.linear) * body.mass;
-  return {vector_of(linear), vector_of(cross(body.centre, linear) + body.inertia * lanes_of(velocity.angular))};
-}
-
-TreeMomentum Tree::momentum(int number) const {
-  const Body& body = bodies_[index(number)];
-  const Four linear = body.velocity.at(body.centre) * body.mass;
-  const Four angular = body.inertia * body.velocity.angular;
-  return {vector_of(linear), vector_of(cross(body.centre, linear) + angular)};
+BUBBLESIM_SIMD void Tree::release(const std::vector<Twist>& velocities, const std::vector<Wrench>& wrenches, double step,
+                                  std::vector<SpatialLanes>& momenta) const {
+  for (int i = 0; i < links(); ++i) {
+    const Body& body = bodies_[index(i)];
+    const Wrench& wrench = wrenches[index(i)];
+    const Four force = lanes_of(wrench.force);
+    SpatialLanes& made = momenta[index(i)];
+    made = body.momentum(lanes_of(velocities[index(i)].linear), lanes_of(velocities[index(i)].angular));
+    made.add(step, {lanes_of(wrench.torque) + cross(body.centre, force), force});
+  }
 }
 
 namespace {
@@ -40,9 +39,8 @@ BUBBLESIM_INLINE Four solve(const MatrixLanes& matrix, const Four& given) {
 }  // namespace
 
 /// Changes the velocities of links that hang together as if they were one rigid body.
-BUBBLESIM_SIMD void Tree::set_momentum(int root, const TreeMomentum& wanted) {
-  Four linear = lanes_of(wanted.linear);  // that is missing
-  Four angular = lanes_of(wanted.angular);
+BUBBLESIM_SIMD void Tree::set_momentum(int root, const std::vector<SpatialLanes>& momenta) {
+  SpatialLanes missing;
   double mass = 0;
   Four first = {};
   MatrixLanes second;
@@ -55,28 +53,27 @@ BUBBLESIM_SIMD void Tree::set_momentum(int root, const TreeMomentum& wanted) {
   for (int i = root; i < links(); ++i) {
     if (free_root(i) != root) continue;
     const Body& body = bodies_[index(i)];
-    const Four push = body.velocity.at(body.centre) * body.mass;
-    linear -= push;
-    angular -= cross(body.centre, push) + body.inertia * body.velocity.angular;
+    missing.add(momenta[index(i)]);
+    missing.add(-1, momentum(i));
     mass += body.mass;
     first += body.centre * body.mass;
     for (int c = 0; c < 3; ++c) second.columns[c] += body.inertia.columns[c];
     add_point(body.centre, body.mass);
   }
   const Four centre = first * (1 / mass);
-  const Four slide = linear * (1 / mass);
+  const Four slide = missing.linear * (1 / mass);
   add_point(centre, -mass);
   SpatialLanes change;
-  change.angular = solve(second, angular - cross(centre, linear));
+  change.angular = solve(second, missing.angular - cross(centre, missing.linear));
   change.linear = slide - cross(change.angular, centre);
   for (int i = root; i < links(); ++i) {
     if (free_root(i) == root) bodies_[index(i)].velocity.add(change);
   }
 }
 
-void Tree::set_momenta(const std::vector<TreeMomentum>& wanted) {
+void Tree::set_momenta(const std::vector<SpatialLanes>& momenta) {
   for (int root = 0; root < links(); ++root) {
-    if (free_root(root) == root) set_momentum(root, wanted[index(root)]);
+    if (free_root(root) == root) set_momentum(root, momenta);
   }
 }
 
