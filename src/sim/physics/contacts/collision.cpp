@@ -94,11 +94,8 @@ void touch(void* data, dGeomID first, dGeomID second) {
   SurfacePair pair = combine(surface_a, surface_b, step);
   share_load(1 / a.model_mass + 1 / b.model_mass, step, pair);
   for (int i = 0; i < count; ++i) {
-    FoundContact& point = contacts.found.points.emplace_back();
-    point.has_own_correction = pair.has_own_correction;
-    dContact& contact = point.contact;
-    contact.surface = pair.ode;
-    contact.geom = points[static_cast<std::size_t>(i)];
+    const dContactGeom& place = points[static_cast<std::size_t>(i)];
+    dContact& contact = contacts.found.points.emplace_back(pair.ode, place, pair.has_own_correction).contact;
     if (pair.torsion_by_depth > 0) {
       const double patch = pair.torsion_by_depth * std::sqrt(std::max(contact.geom.depth, 0.0));
       contact.surface.rhoN = std::max(contact.surface.rhoN, patch);

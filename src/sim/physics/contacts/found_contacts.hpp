@@ -4,6 +4,7 @@
 
 #include <ode/ode.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -28,7 +29,14 @@ struct FrictionLimit {
 
 /// A contact point. Its normal points into the first shape of its pair.
 struct FoundContact {
-  dContact contact{};
+  FoundContact(const dSurfaceParameters& surface, const dContactGeom& place, bool has_own_correction_)
+      : has_own_correction(has_own_correction_) {
+    contact.surface = surface;
+    contact.geom = place;
+    std::fill_n(contact.fdir1, 4, 0);
+  }
+
+  dContact contact;
   bool has_own_correction = false;  ///< see SurfacePair
   dJointFeedback feedback{};        ///< of ODE's contact joint, which keeps a pointer to it
   Vector3 force;                    ///< N, on the first shape, in world axes; known after the substep

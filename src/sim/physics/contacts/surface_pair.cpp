@@ -16,9 +16,13 @@ constexpr double kStiff = 1e6;  // N/m
 
 using Optional = std::optional<double>;
 
-/// The lower of two values; a missing value is ignored.
-Optional lower(const Optional& a, const Optional& b) { return a && b ? std::min(*a, *b) : (a ? a : b); }
-Optional higher(const Optional& a, const Optional& b) { return a && b ? std::max(*a, *b) : (a ? a : b); }
+/// The lower of two values; a missing value is ignored. Without both: `otherwise`.
+double lower(const Optional& a, const Optional& b, double otherwise) {
+  return a && b ? std::min(*a, *b) : a ? *a : b ? *b : otherwise;
+}
+double higher(const Optional& a, const Optional& b, double otherwise) {
+  return a && b ? std::max(*a, *b) : a ? *a : b ? *b : otherwise;
+}
 
 /// Softness of a contact, in ODE's terms.
 struct Softness {
@@ -43,13 +47,11 @@ Softness soften(const Surface& a, const Surface& b, double step) {
     }
     return {dContactSoftERP | dContactSoftCFM, step * kp / (step * kp + kd), 1 / (step * kp + kd), false, true, 0};
   }
-  if (const Optional erp = lower(a.soft_erp, b.soft_erp)) {
-    made.erp = *erp;
-    made.has_own_correction = true;
-  }
-  if (const Optional cfm = higher(a.soft_cfm, b.soft_cfm)) {
+  made.has_own_correction = a.soft_erp || b.soft_erp;
+  made.erp = lower(a.soft_erp, b.soft_erp, made.erp);
+  if (a.soft_cfm || b.soft_cfm) {
     made.mode |= dContactSoftCFM;
-    made.cfm = std::max(*cfm, kConstraintSoftness);
+    made.cfm = std::max(higher(a.soft_cfm, b.soft_cfm, 0), kConstraintSoftness);
   }
   return made;
 }
@@ -92,11 +94,11 @@ SurfacePair combine(const Surface& a, const Surface& b, double step) {
   made.soft_cfm = softness.cfm;
   pair.has_own_correction = softness.has_own_correction;
   pair.least_softness = softness.least;
-  pair.sink = std::max(lower(a.min_depth, b.min_depth).value_or(kSurfaceLayer), kSurfaceLayer);
+  pair.sink = std::max(lower(a.min_depth, b.min_depth, kSurfaceLayer), kSurfaceLayer);
   // Sink to the full depth at once: otherwise each wheel rests at a different depth, and a robot leans.
   if (softness.rigid && pair.sink > kSurfaceLayer && made.bounce == 0) pair.sink_speed = kMaxCorrectingVelocity;
   // A soft contact pushes with its spring force; with a limit, heavy bodies would sink in.
-  const double speed = higher(a.max_vel, b.max_vel).value_or(kMaxCorrectingVelocity);
+  const double speed = higher(a.max_vel, b.max_vel, kMaxCorrectingVelocity);
   const bool limited = softness.rigid && softness.erp > 0;
   pair.max_depth = limited ? speed * step / softness.erp : std::numeric_limits<double>::infinity();
   return pair;

@@ -11,16 +11,13 @@
 namespace bubblesim {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kReachOfStop = 1000;  // rad/s^2 or m/s^2, with which an axis may reach a stop in a substep
 
 /// Lets a row reach a velocity, in m/s or rad/s, with a force or torque of at most `most`.
 void drive(ConstraintRows& rows, int row, double velocity, double most, double step) {
   rows.set(row, velocity, kConstraintSoftness / step, 0);
-  ConeBlock block;
-  block.row = row;
-  block.upper = most * step;
-  block.lower = -block.upper;
-  rows.bound(block);
+  rows.bound(row, -most * step, most * step);
 }
 
 /// Of a point of one body beside another one that turns, m/s^2, while the rates are constant.
@@ -76,9 +73,7 @@ void TreeModel::add_axis_rows(const Axis& axis, ConstraintRows& rows, double ste
   if (axis.dof < 0 && forces.damper && forces.damper->softness > 0) {
     const int row = add_axis_row(axis, rows);
     rows.set(row, forces.damper->velocity, forces.damper->softness / step, 0);
-    ConeBlock block;
-    block.row = row;
-    rows.bound(block);
+    rows.bound(row, -kInfinity, kInfinity);
   }
   add_stops(axis, rows, step);
 }
@@ -90,20 +85,15 @@ void TreeModel::add_stops(const Axis& axis, ConstraintRows& rows, double step) {
   const double here = joint.position_when_driven(axis.number);
   const double speed = joint.velocity(axis.number);
   const double reach = step * (2 * std::abs(speed) + step * kReachOfStop);
-  const double infinity = std::numeric_limits<double>::infinity();
   const auto stop = [&](double gap, double lower, double upper) {
     const int row = add_axis_row(axis, rows);
     const bool beyond = lower == 0 ? gap > 0 : gap < 0;
     rows.set(row, (beyond ? kErrorReduction : 1) * gap / step, kConstraintSoftness / step, 0);
-    ConeBlock block;
-    block.row = row;
-    block.lower = lower;
-    block.upper = upper;
-    rows.bound(block);
+    rows.bound(row, lower, upper);
   };
-  if (limits.lower == limits.upper) return stop(limits.lower - here, -infinity, infinity);
-  if (here - limits.lower < reach) stop(limits.lower - here, 0, infinity);
-  if (limits.upper - here < reach) stop(limits.upper - here, -infinity, 0);
+  if (limits.lower == limits.upper) return stop(limits.lower - here, -kInfinity, kInfinity);
+  if (here - limits.lower < reach) stop(limits.lower - here, 0, kInfinity);
+  if (limits.upper - here < reach) stop(limits.upper - here, -kInfinity, 0);
 }
 
 void TreeModel::close_loop(std::size_t number, ConstraintRows& rows, double step) {

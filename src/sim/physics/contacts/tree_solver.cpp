@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <tuple>
 
@@ -194,24 +195,13 @@ BUBBLESIM_SIMD void TreeSolver::add_point(const TreeBody& a, const TreeBody& b, 
       (surface.mode & dContactSlip1) != 0 ? surface.slip1 : 0);
   set(2, (surface.mode & dContactMotion2) != 0 ? surface.motion2 : 0,
       (surface.mode & dContactSlip2) != 0 ? surface.slip2 : 0);
-  ConeBlock bearing;
-  bearing.row = point.normal;
-  bearing.lower = 0;
-  rows_.bound(bearing);
+  rows_.bound(point.normal, 0, std::numeric_limits<double>::infinity());
   const double mu2 = (surface.mode & dContactMu2) != 0 ? surface.mu2 : surface.mu;
-  const auto bound = [&](int row, int size, double mu) {
-    ConeBlock block;
-    block.row = row;
-    block.size = size;
-    block.normal = point.normal;
-    block.mu = mu;
-    rows_.bound(block);
-  };
   if (mu2 == surface.mu) {
-    bound(point.normal + 1, 2, surface.mu);
+    rows_.bound_by(point.normal, surface.mu, point.normal + 1, 2);
   } else {
-    bound(point.normal + 1, 1, surface.mu);
-    bound(point.normal + 2, 1, mu2);
+    rows_.bound_by(point.normal, surface.mu, point.normal + 1, 1);
+    rows_.bound_by(point.normal, mu2, point.normal + 2, 1);
   }
   if ((surface.mode & dContactRolling) == 0) return;
   const Four torque = lanes_of(start.torque);
@@ -222,8 +212,8 @@ BUBBLESIM_SIMD void TreeSolver::add_point(const TreeBody& a, const TreeBody& b, 
     rows_.set(point.spin + i, 0, 0, lanes_dot(torque, torques[i].angular) * step);
     rows_.set_of_contact(point.spin + i);
   }
-  bound(point.spin, 2, surface.rho);
-  bound(point.spin + 2, 1, surface.rhoN);
+  rows_.bound_by(point.normal, surface.rho, point.spin, 2);
+  rows_.bound_by(point.normal, surface.rhoN, point.spin + 2, 1);
 }
 
 }  // namespace bubblesim

@@ -12,7 +12,12 @@ class Cholesky {
   void solve(const Columns& a, double* x);
 
  private:
-  Columns lower_;  // and x; above the diagonal: anything
+  void eliminate_before(int first);
+  void eliminate_among(int first, int end);
+
+  // Above the squares of four on the diagonal: anything.
+  Columns scaled_;  // L D, with x as a row below
+  Columns unit_;    // L, with the solution of L D y = x
 };
 
 }  // namespace bubblesim

@@ -2,6 +2,7 @@
 #include "physics/solver/constraint_rows.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "physics/ode/constraint_defaults.hpp"
 #include "scene/simd.hpp"
@@ -107,9 +108,23 @@ void ConstraintRows::set_of_contact(int row) { rows_[at(row)].singular = kOfCont
 
 void ConstraintRows::hold(int row, double error, double step, double drift) {
   set(row, -(kErrorReduction * error + drift) / step, kConstraintSoftness / step, 0);
-  ConeBlock block;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  bound(row, -kInfinity, kInfinity);
+}
+
+void ConstraintRows::bound(int row, double lower, double upper) {
+  ConeBlock& block = problem_.blocks.emplace_back();
   block.row = row;
-  bound(block);
+  block.lower = lower;
+  block.upper = upper;
+}
+
+void ConstraintRows::bound_by(int normal, double mu, int row, int size) {
+  ConeBlock& block = problem_.blocks.emplace_back();
+  block.row = row;
+  block.size = size;
+  block.normal = normal;
+  block.mu = mu;
 }
 
 void ConstraintRows::set(int row, double target, double softness, double start) {

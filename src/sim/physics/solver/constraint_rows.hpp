@@ -41,7 +41,10 @@ class ConstraintRows {
   void set(int row, double target, double softness, double start);
   /// Marks a row of a contact: other rows may hold the same bodies.
   void set_of_contact(int row);
-  void bound(const ConeBlock& block) { problem_.blocks.push_back(block); }
+  /// Keeps the impulse of a row from `lower` to `upper`, N s or N m s.
+  void bound(int row, double lower, double upper);
+  /// Keeps the impulse of a row, or of two together, within `mu` times that of another row.
+  void bound_by(int normal, double mu, int row, int size);
   /// Lets a contact bounce; its `contact` is the row of its normal, whose target is that of this impact alone.
   void add_impact(const Impact& impact) { impacts_.add(impact); }
 

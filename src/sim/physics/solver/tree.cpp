@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/solver/tree.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "physics/solver/turns.hpp"
@@ -43,14 +44,16 @@ int Tree::add(const TreeLink& link) {
   const Quaternion back = link.in_child.orientation.conjugate();
   placed.straight = lanes_of(link.in_parent.orientation * back);
   placed.turned = lanes_of(link.in_parent.orientation * turn_about(link.axis, M_PI) * back);
+  numbers_.push_back(own);
   for (int i = 0; i < own.count; ++i) {
     placed.last_dof = factors_.add(placed.last_dof);
     dofs_.emplace_back();
     directions_.add();
+    const int first = std::max(factors_.first_of_run(placed.last_dof), numbers_.front().is_base ? 6 : 0);
+    has_long_runs_ = has_long_runs_ || placed.last_dof - first >= kShortRun;
   }
   rates_ = Eigen::VectorXd::Zero(dofs());
   links_.push_back(placed);
-  numbers_.push_back(own);
   inertias_.emplace_back();
   joints_.emplace_back();
   bodies_.emplace_back();

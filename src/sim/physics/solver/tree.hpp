@@ -186,7 +186,10 @@ class Tree {
   Eigen::VectorXd rates_, middle_;
   Eigen::VectorXd change_;  // of the rates per second; before, the forces that are left for it
   Vector3 origin_;
-  Directions directions_;  // those of the degrees of freedom, once more
+  // Consecutive degrees of freedom, beside those of the base, whose directions are taken one by one: as of wheels.
+  static constexpr int kShortRun = 4;
+  bool has_long_runs_ = false;
+  Directions directions_;  // those of the degrees of freedom, once more, for long runs
   BranchedFactors factors_;
 };
 

@@ -59,7 +59,7 @@ BUBBLESIM_SIMD void Tree::add_impulses(const std::vector<Twist>& velocities, dou
 BUBBLESIM_SIMD void Tree::factor() {
   for (int k = 0; k < dofs(); ++k) {
     const TreeDof& dof = dofs_[index(k)];
-    directions_.set(k, dof.direction);
+    if (has_long_runs_) directions_.set(k, dof.direction);
     factors_.set_inverse_diagonal(k, dof.inverse_inertia);
   }
   factors_.set_zero();
@@ -89,13 +89,12 @@ BUBBLESIM_SIMD void Tree::project(int link, const Vector3& point, double sign, S
 
 /// Adds what a force does along degrees of freedom with consecutive numbers.
 BUBBLESIM_INLINE void Tree::project(const SpatialLanes& force, int first, int count, double* along) const {
-  constexpr int kFew = 4;  // as of wheels: a call would take longer
   int done = 0;
   if (first == 0 && numbers_[0].is_base) {
     done = std::min(count, 6);
     for (int k = 0; k < done; ++k) along[k] += k < 3 ? force.angular[k] : force.linear[k - 3];
   }
-  if (count - done > kFew) return directions_.project(force, first + done, count - done, along + done);
+  if (count - done > kShortRun) return directions_.project(force, first + done, count - done, along + done);
   for (; done < count; ++done) along[done] += force.along(dofs_[index(first + done)].direction);
 }
 

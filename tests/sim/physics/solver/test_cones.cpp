@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "physics/solver/constraint_rows.hpp"
@@ -29,16 +30,8 @@ void add_contact(ConstraintRows& rows, const TreeBody& on, const Vector3& at, do
     if (is_one_of_many) rows.set_of_contact(row);
     if (normal < 0) normal = row;
   }
-  ConeBlock block;
-  block.row = normal;
-  block.lower = 0;
-  rows.bound(block);
-  ConeBlock friction;
-  friction.row = normal + 1;
-  friction.size = 2;
-  friction.normal = normal;
-  friction.mu = mu;
-  rows.bound(friction);
+  rows.bound(normal, 0, std::numeric_limits<double>::infinity());
+  rows.bound_by(normal, mu, normal + 1, 2);
 }
 
 /// The acceleration along a slope of a point mass on it, m/s^2; the slope is gravity that leans.
