@@ -200,18 +200,28 @@ bool TreeModel::would_turn_too_far(double step) {
   return any_turns_too_far(step, [&](int link) { return tree_.velocity(link).angular; });
 }
 
-void TreeModel::begin(const Vector3& gravity, double step) {
-  const std::size_t count = parts_.size();
-  poses_.resize(count);
-  velocities_.resize(count);
-  wrenches_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    dBodyID body = parts_[i]->body.get();
-    poses_[i] = body_pose(body);
-    velocities_[i] = body_velocity(body);
-    if (tree_.mass(static_cast<int>(i)) != parts_[i]->mass) take_inertia(i);
+/// Takes states and wrenches from ODE's bodies.
+BUBBLESIM_SIMD void TreeModel::take_states(const Vector3& gravity) {
+  states_.resize(parts_.size());
+  wrenches_.resize(parts_.size());
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Link& link = *parts_[i];
+    dBodyID body = link.body.get();
+    const dReal* turn = dBodyGetQuaternion(body);
+    const bool is_heavy = dBodyGetGravityMode(body) != 0;
+    TreeLinkState& state = states_[i];
+    state.place = lanes_of(dBodyGetPosition(body));
+    state.turn = Four{turn[1], turn[2], turn[3], turn[0]};
+    state.velocity = {lanes_of(dBodyGetAngularVel(body)), lanes_of(dBodyGetLinearVel(body))};
+    wrenches_[i] = {lanes_of(dBodyGetTorque(body)), lanes_of(dBodyGetForce(body))};
+    if (is_heavy) wrenches_[i].linear += lanes_of(gravity) * link.mass;
+    if (tree_.mass(static_cast<int>(i)) != link.mass) take_inertia(i);
   }
-  tree_.read(poses_, velocities_);
+}
+
+void TreeModel::begin(const Vector3& gravity, double step) {
+  take_states(gravity);
+  tree_.read(states_);
   forces_.setZero(tree_.dofs());
   added_.setZero(tree_.dofs());
   for (Axis& axis : axes_) {
@@ -224,17 +234,12 @@ void TreeModel::begin(const Vector3& gravity, double step) {
     forces_[axis.dof] = coefficient * (damper->velocity - tree_.rates()[axis.dof]);
   }
   tree_.weigh(added_);
-  loose_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Link& link = *parts_[i];
-    dBodyID body = link.body.get();
-    Wrench& wrench = wrenches_[i];
-    wrench = {to_vector(dBodyGetForce(body)), to_vector(dBodyGetTorque(body))};
-    if (dBodyGetGravityMode(body) != 0) wrench.force += gravity * link.mass;
+  if (keeps_momenta_) {
+    loose_.resize(parts_.size());
+    tree_.release(states_, wrenches_, step, loose_);
   }
-  if (keeps_momenta_) tree_.release(velocities_, wrenches_, step, loose_);
   // A velocity that the joints do not allow, such as one that was set, acts as an impulse.
-  tree_.add_impulses(velocities_, step, wrenches_);
+  tree_.add_impulses(states_, step, wrenches_);
   tree_.push(step, wrenches_, forces_);
 }
 

@@ -59,6 +59,7 @@ class TreeModel {
 
   void add_link(std::size_t joint, int parent);
   void take_inertia(std::size_t number);
+  void take_states(const Vector3& gravity);
   void note_what_swings();
   /// `rate_of`: rad/s, of a link of the tree.
   template <class RateOf>
@@ -88,9 +89,8 @@ class TreeModel {
   std::vector<std::size_t> gearboxes_;
   std::vector<std::size_t> loops_;  // the other joints
   std::vector<MotorRow> motors_;
-  std::vector<Pose> poses_;
-  std::vector<Twist> velocities_;
-  std::vector<Wrench> wrenches_;
+  std::vector<TreeLinkState> states_;
+  std::vector<SpatialLanes> wrenches_;
   bool keeps_momenta_ = false;       // for floating roots, and for force-torque sensors
   std::vector<SpatialLanes> loose_;  // the links' momenta at the end of the substep if they were not jointed
   Eigen::VectorXd forces_, added_;

@@ -21,8 +21,6 @@ Vector3 velocity_at(const Link& link, const dReal* point) {
   return to_vector(velocity);
 }
 
-BUBBLESIM_INLINE Four lanes_of(const dReal* vector) { return Four{vector[0], vector[1], vector[2], 0}; }
-
 /// A direction across a normal, as ODE's dPlaneSpace().
 BUBBLESIM_INLINE Four tangent_of(const dReal* n) {
   const bool is_steep = std::abs(n[2]) > M_SQRT1_2;

@@ -11,6 +11,7 @@
 namespace bubblesim {
 
 BUBBLESIM_INLINE Four lanes_of(const Vector3& v) { return Four{v.x(), v.y(), v.z(), 0}; }
+BUBBLESIM_INLINE Four lanes_of(const double* vector) { return Four{vector[0], vector[1], vector[2], 0}; }
 BUBBLESIM_INLINE Vector3 vector_of(const Four& v) { return {v[0], v[1], v[2]}; }
 
 BUBBLESIM_INLINE Four lanes_of(const Quaternion& turn) { return Four{turn.x(), turn.y(), turn.z(), turn.w()}; }

@@ -75,32 +75,32 @@ BUBBLESIM_INLINE void Tree::turn(int link, const Four& orientation) {
   body.inertia = turned_inertia(links_[index(link)].link.inertia, body.axes);
 }
 
-void Tree::set_origin(const Vector3& origin) {
-  origin_ = origin;
-  world_.centre = -lanes_of(origin);
+BUBBLESIM_INLINE void Tree::set_origin(const Four& origin) {
+  origin_ = vector_of(origin);
+  world_.centre = -origin;
 }
 
-BUBBLESIM_SIMD void Tree::read(const std::vector<Pose>& poses, const std::vector<Twist>& velocities) {
-  set_origin(poses[0].position);
+BUBBLESIM_SIMD void Tree::read(const std::vector<TreeLinkState>& states) {
+  set_origin(states[0].place);
   for (int i = 0; i < links(); ++i) {
     Body& body = bodies_[index(i)];
     // Bodies that the tree itself has placed are turned already.
-    const Four orientation = lanes_of(poses[index(i)].orientation);
-    if (!has_same_bits(body.orientation, orientation)) turn(i, orientation);
-    body.centre = lanes_of(poses[index(i)].position) - lanes_of(origin_);
-    read_joint(i, velocities);
+    const TreeLinkState& state = states[index(i)];
+    if (!has_same_bits(body.orientation, state.turn)) turn(i, state.turn);
+    body.centre = state.place - states[0].place;
+    read_joint(i, states);
     place_joint(i);
   }
   set_velocities(rates_);
 }
 
 /// Takes coordinate and rates of a joint; the links are placed.
-BUBBLESIM_INLINE void Tree::read_joint(int number, const std::vector<Twist>& velocities) {
+BUBBLESIM_INLINE void Tree::read_joint(int number, const std::vector<TreeLinkState>& states) {
   const Placed& placed = links_[index(number)];
   const TreeLink& link = placed.link;
   TreeJointState& state = joints_[index(number)];
   const Body& body = bodies_[index(number)];
-  const Twist& now = velocities[index(number)];
+  const SpatialLanes& now = states[index(number)].velocity;
   double* const rates = rates_.data() + first_dof(number);
   if (link.motion == TreeMotion::kFree) {
     state.place = origin_ + vector_of(body.centre);
@@ -110,8 +110,8 @@ BUBBLESIM_INLINE void Tree::read_joint(int number, const std::vector<Twist>& vel
     return;
   }
   const Body& parent = parent_of(link);
-  Four spin = lanes_of(now.angular);
-  if (link.parent >= 0) spin -= lanes_of(velocities[index(link.parent)].angular);
+  const SpatialLanes carried = link.parent < 0 ? SpatialLanes() : states[index(link.parent)].velocity;
+  const Four spin = now.angular - carried.angular;
   const Four axis = parent.axes * placed.axis;
   if (turns(link.motion)) {
     const Four turn = turn_product(turn_back(parent.orientation), body.orientation);
@@ -123,9 +123,7 @@ BUBBLESIM_INLINE void Tree::read_joint(int number, const std::vector<Twist>& vel
     state.slide = lanes_dot(axis, anchor - parent.centre - parent.axes * placed.in_parent);
   }
   if (link.motion == TreeMotion::kSlides) {
-    const Twist carried = link.parent < 0 ? Twist() : velocities[index(link.parent)];
-    const Four at_parent = lanes_of(carried.linear) + cross(lanes_of(carried.angular), body.centre - parent.centre);
-    rates[0] = lanes_dot(axis, lanes_of(now.linear) - at_parent);
+    rates[0] = lanes_dot(axis, now.linear - carried.at(body.centre - parent.centre));
   }
   if (link.motion != TreeMotion::kBall && link.motion != TreeMotion::kTwoAxes) return;
   const Quaternion joint = quaternion_of(parent) * link.in_parent.orientation;
@@ -154,7 +152,7 @@ BUBBLESIM_SIMD void Tree::place() {
     Body& body = bodies_[index(i)];
     if (link.motion == TreeMotion::kFree) {
       turn(i, lanes_of(state.turn));
-      if (i == 0) set_origin(state.place);
+      if (i == 0) set_origin(lanes_of(state.place));
       body.centre = lanes_of(state.place) - lanes_of(origin_);
       place_joint(i);
       continue;
@@ -169,11 +167,11 @@ BUBBLESIM_SIMD void Tree::place() {
     }
     turned = turn_product(parent_of(link).orientation, turned);
     turn(i, turned * inverse_length(turn_dot(turned, turned)));
-    if (i == 0) set_origin(Vector3());
+    if (i == 0) set_origin(Four{});
     place_joint(i);
     body.centre = body.anchor - body.axes * placed.in_child;
     if (i > 0) continue;
-    set_origin(vector_of(body.centre));
+    set_origin(body.centre);
     body.centre = Four{};
     place_joint(i);
   }

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "bubblesim/math.hpp"
-#include "bubblesim/wrench.hpp"
 #include "physics/solver/articulated_inertia.hpp"
 #include "physics/solver/branched_factors.hpp"
 #include "physics/solver/directions.hpp"
@@ -40,6 +39,13 @@ struct TreeJointState {
   Vector3 place;     ///< m, of kFree: the centre of mass in the world
 };
 
+/// Where a link is, and how it moves.
+struct TreeLinkState {
+  Four place = {};            ///< m, the centre of mass in the world
+  Four turn = {0, 0, 0, 1};   ///< of the link in the world: x, y, z, w
+  SpatialLanes velocity;      ///< rad/s, and of the centre of mass in m/s
+};
+
 class Tree {
  public:
   /// Adds a link; returns its number.
@@ -57,9 +63,9 @@ class Tree {
   /// The degree of freedom before another on the way to the world; -1: none.
   int before(int dof) const { return factors_.before(dof); }
 
-  /// Takes places, joints and rates from poses and velocities of the centres of mass, by link. Joints and rates drop
-  /// what the joints do not allow. Computes the velocities from the rates.
-  void read(const std::vector<Pose>& poses, const std::vector<Twist>& velocities);
+  /// Takes places, joints and rates from the states of the links. Joints and rates drop what the joints do not allow.
+  /// Computes the velocities from the rates.
+  void read(const std::vector<TreeLinkState>& states);
   TreeJointState& joint(int link) { return joints_[index(link)]; }
   Eigen::VectorXd& rates() { return rates_; }  ///< rad/s or m/s; of kFree: angular, then linear velocity in the world
   const Eigen::VectorXd& rates() const { return rates_; }
@@ -83,12 +89,13 @@ class Tree {
   /// Computes the inertias at the present place, of links and articulated, with `added` to the mass matrix by degree of
   /// freedom, kg or kg m^2.
   void weigh(const Eigen::VectorXd& added);
-  /// Adds to the wrenches on links what takes them from velocities in a substep to those that the joints allow.
-  void add_impulses(const std::vector<Twist>& velocities, double step, std::vector<Wrench>& wrenches) const;
+  /// Adds to the wrenches on links, about their centres of mass in N m and N, what takes their velocities in a substep to
+  /// those that the joints allow.
+  void add_impulses(const std::vector<TreeLinkState>& states, double step, std::vector<SpatialLanes>& wrenches) const;
   /// Changes the rates by a substep: (M + added) du = step (forces - bias), where the bias is what rates and wrenches
   /// on links (about their centres of mass) need, at the mean of the rates before and after, which makes it of second
   /// order. After weigh(), and set_velocities() of the present rates.
-  void push(double step, const std::vector<Wrench>& wrenches, const Eigen::VectorXd& forces);
+  void push(double step, const std::vector<SpatialLanes>& wrenches, const Eigen::VectorXd& forces);
 
   /// Computes the factors of the mass matrix plus `added`, for rows of constraints. After weigh().
   void factor();
@@ -108,7 +115,7 @@ class Tree {
   int free_root(int link) const { return links_[index(link)].free_root; }
   /// The momenta of links, N s and N m s about the origin, after a step with their velocities before it and the wrenches
   /// on them, if they were not jointed.
-  void release(const std::vector<Twist>& velocities, const std::vector<Wrench>& wrenches, double step,
+  void release(const std::vector<TreeLinkState>& states, const std::vector<SpatialLanes>& wrenches, double step,
                std::vector<SpatialLanes>& momenta) const;
   /// Of a link, at the present place and velocity.
   SpatialLanes momentum(int link) const {
@@ -163,13 +170,13 @@ class Tree {
     const Four& turn = body.orientation;
     return {turn[3], turn[0], turn[1], turn[2]};
   }
-  void set_origin(const Vector3& origin);
+  void set_origin(const Four& origin);
   void turn(int link, const Four& orientation);
-  void read_joint(int link, const std::vector<Twist>& velocities);
+  void read_joint(int link, const std::vector<TreeLinkState>& states);
   void place_joint(int link);
   void set_velocity(int link, const double* rates);
   void accelerate(int link, const double* rates);
-  void find_need(int link, const double* rates, const Wrench& wrench);
+  void find_need(int link, const double* rates, const SpatialLanes& wrench);
   void gather_needs(const double* forces);
   void project(const SpatialLanes& force, int first, int count, double* along) const;
   void find_change_of_base();

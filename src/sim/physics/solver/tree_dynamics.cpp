@@ -41,18 +41,14 @@ BUBBLESIM_SIMD void Tree::weigh(const Eigen::VectorXd& added) {
   eliminate(numbers_.data(), links(), added.data(), inertias_.data(), dofs_.data());
 }
 
-BUBBLESIM_SIMD void Tree::add_impulses(const std::vector<Twist>& velocities, double step,
-                                       std::vector<Wrench>& wrenches) const {
+BUBBLESIM_SIMD void Tree::add_impulses(const std::vector<TreeLinkState>& states, double step,
+                                       std::vector<SpatialLanes>& wrenches) const {
   for (int i = 0; i < links(); ++i) {
     const Body& body = bodies_[index(i)];
-    const Twist& given = velocities[index(i)];
-    const Four force = (lanes_of(given.linear) - body.velocity.at(body.centre)) * (body.mass / step);
-    const Four torque = body.inertia * (lanes_of(given.angular) - body.velocity.angular) * (1 / step);
-    Wrench& wrench = wrenches[index(i)];
-    for (int k = 0; k < 3; ++k) {
-      wrench.force[k] += force[k];
-      wrench.torque[k] += torque[k];
-    }
+    const SpatialLanes& given = states[index(i)].velocity;
+    const Four force = (given.linear - body.velocity.at(body.centre)) * (body.mass / step);
+    const Four torque = body.inertia * (given.angular - body.velocity.angular) * (1 / step);
+    wrenches[index(i)].add({torque, force});
   }
 }
 
@@ -126,14 +122,14 @@ BUBBLESIM_INLINE void Tree::accelerate(int link, const double* rates) {
 }
 
 /// Computes what a link needs beside the wrench on it while the rates are constant.
-BUBBLESIM_INLINE void Tree::find_need(int link, const double* rates, const Wrench& wrench) {
+BUBBLESIM_INLINE void Tree::find_need(int link, const double* rates, const SpatialLanes& wrench) {
   accelerate(link, rates);
   Body& body = bodies_[index(link)];
   const Four spin = body.velocity.angular;
   const Four pull = body.acceleration.at(body.centre) + cross(spin, body.velocity.at(body.centre));
-  body.needs.linear = pull * body.mass - lanes_of(wrench.force);
+  body.needs.linear = pull * body.mass - wrench.linear;
   body.needs.angular = body.inertia * body.acceleration.angular + cross(spin, body.inertia * spin) -
-                       lanes_of(wrench.torque) + cross(body.centre, body.needs.linear);
+                       wrench.angular + cross(body.centre, body.needs.linear);
 }
 
 /// Passes the needs on to the parents, as far as the joints do not give way to the forces that are left.
@@ -186,7 +182,7 @@ BUBBLESIM_INLINE void Tree::find_change(int link) {
   bodies_[index(link)].change = change;
 }
 
-BUBBLESIM_SIMD void Tree::push(double step, const std::vector<Wrench>& wrenches, const Eigen::VectorXd& forces) {
+BUBBLESIM_SIMD void Tree::push(double step, const std::vector<SpatialLanes>& wrenches, const Eigen::VectorXd& forces) {
   change_.resize(dofs());
   for (int i = 0; i < links(); ++i) find_need(i, rates_.data(), wrenches[index(i)]);
   gather_needs(forces.data());

@@ -6,15 +6,14 @@
 
 namespace bubblesim {
 
-BUBBLESIM_SIMD void Tree::release(const std::vector<Twist>& velocities, const std::vector<Wrench>& wrenches, double step,
-                                  std::vector<SpatialLanes>& momenta) const {
+BUBBLESIM_SIMD void Tree::release(const std::vector<TreeLinkState>& states, const std::vector<SpatialLanes>& wrenches,
+                                  double step, std::vector<SpatialLanes>& momenta) const {
   for (int i = 0; i < links(); ++i) {
     const Body& body = bodies_[index(i)];
-    const Wrench& wrench = wrenches[index(i)];
-    const Four force = lanes_of(wrench.force);
+    const SpatialLanes& wrench = wrenches[index(i)];
     SpatialLanes& made = momenta[index(i)];
-    made = body.momentum(lanes_of(velocities[index(i)].linear), lanes_of(velocities[index(i)].angular));
-    made.add(step, {lanes_of(wrench.torque) + cross(body.centre, force), force});
+    made = body.momentum(states[index(i)].velocity.linear, states[index(i)].velocity.angular);
+    made.add(step, {wrench.angular + cross(body.centre, wrench.linear), wrench.linear});
   }
 }
 

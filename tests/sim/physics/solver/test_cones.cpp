@@ -40,7 +40,7 @@ double slide_on_slope(double slope, double mu, double heading) {
   tree.place();
   tree.weigh(Eigen::VectorXd::Zero(6));
   const Vector3 down(std::sin(slope) * std::cos(heading), std::sin(slope) * std::sin(heading), -std::cos(slope));
-  tree.push(kStep, {{down * (3 * kGravity), {}}}, Eigen::VectorXd::Zero(6));
+  tree.push(kStep, {{Four{}, lanes_of(down * (3 * kGravity))}}, Eigen::VectorXd::Zero(6));
   ConstraintRows rows;
   add_contact(rows, {&tree, 0}, {}, mu);
   EXPECT_LT(rows.solve().residual, 1e-8);
@@ -61,7 +61,7 @@ TEST(ThreeWheels, ShareALateralLoadThatIsNotDetermined) {
   Tree tree = body(12);
   tree.place();
   tree.weigh(Eigen::VectorXd::Zero(6));
-  tree.push(kStep, {{{0, 50, -12 * kGravity}, {}}}, Eigen::VectorXd::Zero(6));
+  tree.push(kStep, {{Four{}, Four{0, 50, -12 * kGravity, 0}}}, Eigen::VectorXd::Zero(6));
   ConstraintRows rows;
   for (const Vector3& at : {Vector3(1, 0, 0), Vector3(-1, 0.5, 0), Vector3(-1, -0.5, 0)}) {
     add_contact(rows, {&tree, 0}, at, 0.5);
@@ -89,7 +89,10 @@ TEST(Boxes, OnFourCornersSlideAndHold) {
     Tree tree = body(2);
     tree.place();
     tree.weigh(Eigen::VectorXd::Zero(6));
-    tree.push(kStep, {{{30 * any(random), 30 * any(random), -2 * kGravity}, {0.1 * any(random), 0, any(random)}}},
+    SpatialLanes wrench;
+    wrench.linear = Four{30 * any(random), 30 * any(random), -2 * kGravity, 0};
+    wrench.angular = Four{0.1 * any(random), 0, any(random), 0};
+    tree.push(kStep, {wrench},
               Eigen::VectorXd::Zero(6));
     ConstraintRows rows;
     for (const double x : {-0.3, 0.3}) {

@@ -25,11 +25,11 @@ TreeLink rod(int parent, const Vector3& in_parent) {
   return link;
 }
 
-std::vector<Wrench> weights(const Tree& tree) {
-  return std::vector<Wrench>(static_cast<std::size_t>(tree.links()), Wrench{{0, 0, -kGravity}, {}});
+std::vector<SpatialLanes> weights(const Tree& tree) {
+  return std::vector<SpatialLanes>(static_cast<std::size_t>(tree.links()), {Four{}, Four{0, 0, -kGravity, 0}});
 }
 
-void step(Tree& tree, double duration, const std::vector<Wrench>& wrenches) {
+void step(Tree& tree, double duration, const std::vector<SpatialLanes>& wrenches) {
   tree.place();
   tree.weigh(Eigen::VectorXd::Zero(tree.dofs()));
   tree.set_velocities(tree.rates());
@@ -126,7 +126,7 @@ TEST(Push, AcceleratesByTheMassMatrix) {
     tree.rates().setZero();
     tree.set_velocities(tree.rates());
     tree.weigh(added);
-    tree.push(kStep, std::vector<Wrench>(static_cast<std::size_t>(tree.links())), forces);
+    tree.push(kStep, std::vector<SpatialLanes>(static_cast<std::size_t>(tree.links())), forces);
     EXPECT_LT((dense * tree.rates() / kStep - forces).norm(), 1e-8) << seed;
   }
 }
@@ -153,15 +153,16 @@ TEST(Read, GivesTheCoordinatesBack) {
   for (unsigned seed = 1; seed < 10; ++seed) {
     Tree tree = mixed_tree(seed);
     tree.set_velocities(tree.rates());
-    std::vector<Pose> poses;
-    std::vector<Twist> velocities;
+    std::vector<TreeLinkState> states;
     for (int i = 0; i < tree.links(); ++i) {
-      poses.push_back(tree.pose(i));
-      velocities.push_back(tree.velocity(i));
+      TreeLinkState& state = states.emplace_back();
+      state.place = lanes_of(tree.pose(i).position);
+      state.turn = lanes_of(tree.pose(i).orientation);
+      state.velocity = {lanes_of(tree.velocity(i).angular), lanes_of(tree.velocity(i).linear)};
     }
     Tree again = mixed_tree(seed);
     again.move(0.3);
-    again.read(poses, velocities);
+    again.read(states);
     again.place();
     EXPECT_LT((again.rates() - tree.rates()).norm(), 1e-12) << seed;
     for (int i = 0; i < tree.links(); ++i) {
@@ -239,7 +240,7 @@ TEST(FloatingTree, KeepsItsMomentum) {
     return std::make_pair(linear, angular);
   };
   const auto [linear, angular] = momenta();
-  const std::vector<Wrench> none(2);
+  const std::vector<SpatialLanes> none(2);
   for (int i = 0; i < 10000; ++i) step(tree, 0.001, none);
   const auto [linear_after, angular_after] = momenta();
   EXPECT_LT((linear_after - linear).norm(), 5e-3 * linear.norm());
