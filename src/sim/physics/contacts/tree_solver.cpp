@@ -140,10 +140,10 @@ void TreeSolver::add_hold(const Hold& hold, double step) {
 void TreeSolver::add_pair(const IslandPair& island_pair, Substep& substep) {
   const FoundPair& pair = *island_pair.pair;
   std::vector<FoundContact>& found = substep.contacts.found.points;
-  const ExpectedContacts expected = island_pair.remembered == nullptr
-                                        ? ExpectedContacts()
-                                        : expect(substep.contacts.memory, *island_pair.remembered, pair,
-                                                 &found[pair.begin], substep.duration);
+  const ExpectedContacts expected =
+      island_pair.remembered == nullptr
+          ? ExpectedContacts()
+          : expect(substep.contacts.memory, *island_pair.remembered, pair, &found[pair.begin], substep.duration);
   const TreeBody a = body_of(*pair.first, substep);
   const TreeBody b = body_of(*pair.second, substep);
   for (std::size_t i = 0; i < static_cast<std::size_t>(pair.count); ++i) {
@@ -171,7 +171,8 @@ BUBBLESIM_SIMD void TreeSolver::add_point(const TreeBody& a, const TreeBody& b, 
   double target = surface.soft_erp / step * std::max(found.contact.geom.depth - kSurfaceLayer, 0.0) + motion;
   if ((surface.mode & dContactBounce) != 0) {
     const dReal* at = found.contact.geom.pos;
-    const double incoming = to_vector(found.contact.geom.normal).dot(velocity_at(*pair.second->link, at) - velocity_at(*pair.first->link, at));
+    const double incoming = to_vector(found.contact.geom.normal)
+                                .dot(velocity_at(*pair.second->link, at) - velocity_at(*pair.first->link, at));
     const Impact impact{rows_.count(), -incoming, surface.bounce, surface.bounce_vel, motion, target};
     rows_.add_impact(impact);
     target = impact.target_alone();

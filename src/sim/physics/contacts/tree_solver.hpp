@@ -33,7 +33,7 @@ class TreeSolver {
     FoundContact* point = nullptr;
     int normal = 0;
     int spin = -1;  // of its resistances to rolling (2) and spinning; -1: none
-    Four axes[3];  // the normal and the directions of friction
+    Four axes[3];   // the normal and the directions of friction
   };
 
   void gather(Substep& substep);

@@ -156,7 +156,7 @@ class Joint {
   void restore_stop(Axis& axis);
 
   std::vector<Axis> axes_;
-  std::vector<int> driven_;    // axes whose motor is set in each substep
+  std::vector<int> driven_;  // axes whose motor is set in each substep
   std::vector<int> sprung_;
   std::vector<int> stopped_;   // axes with a range
   std::vector<int> measured_;  // axes of which drive() needs the position, or that have limits

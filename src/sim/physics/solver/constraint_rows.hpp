@@ -30,7 +30,8 @@ class ConstraintRows {
 
   /// A force along `direction` at a point, on the first body, and the opposite on the second. Returns its number.
   int add_force(const TreeBody& first, const TreeBody& second, const Vector3& point, const Vector3& direction);
-  /// Likewise rows for as many forces with moments about the point, `kMostAtOnce` at most; returns the number of the first.
+  /// Likewise rows for as many forces with moments about the point, `kMostAtOnce` at most; returns the number of the
+  /// first.
   int add_forces(const TreeBody& first, const TreeBody& second, const Vector3& point, const SpatialLanes* forces,
                  int count);
   int add_torque(const TreeBody& first, const TreeBody& second, const Vector3& axis);

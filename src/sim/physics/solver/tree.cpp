@@ -34,8 +34,12 @@ int Tree::add(const TreeLink& link) {
   const int number = links();
   Placed placed;
   placed.link = link;
-  const LinkDofs own{link.parent, dofs(), count_of(link.motion), link.motion == TreeMotion::kFree,
-                     link.motion == TreeMotion::kBall, link.motion == TreeMotion::kFree && number == 0};
+  const LinkDofs own{link.parent,
+                     dofs(),
+                     count_of(link.motion),
+                     link.motion == TreeMotion::kFree,
+                     link.motion == TreeMotion::kBall,
+                     link.motion == TreeMotion::kFree && number == 0};
   placed.last_dof = link.parent < 0 ? -1 : last_dof(link.parent);
   placed.free_root = link.motion == TreeMotion::kFree ? number : link.parent < 0 ? -1 : free_root(link.parent);
   placed.axis = lanes_of(link.in_parent.orientation * link.axis);

@@ -41,9 +41,9 @@ struct TreeJointState {
 
 /// Where a link is, and how it moves.
 struct TreeLinkState {
-  Four place = {};            ///< m, the centre of mass in the world
-  Four turn = {0, 0, 0, 1};   ///< of the link in the world: x, y, z, w
-  SpatialLanes velocity;      ///< rad/s, and of the centre of mass in m/s
+  Four place = {};           ///< m, the centre of mass in the world
+  Four turn = {0, 0, 0, 1};  ///< of the link in the world: x, y, z, w
+  SpatialLanes velocity;     ///< rad/s, and of the centre of mass in m/s
 };
 
 class Tree {
@@ -89,8 +89,8 @@ class Tree {
   /// Computes the inertias at the present place, of links and articulated, with `added` to the mass matrix by degree of
   /// freedom, kg or kg m^2.
   void weigh(const Eigen::VectorXd& added);
-  /// Adds to the wrenches on links, about their centres of mass in N m and N, what takes their velocities in a substep to
-  /// those that the joints allow.
+  /// Adds to the wrenches on links, about their centres of mass in N m and N, what takes their velocities in a substep
+  /// to those that the joints allow.
   void add_impulses(const std::vector<TreeLinkState>& states, double step, std::vector<SpatialLanes>& wrenches) const;
   /// Changes the rates by a substep: (M + added) du = step (forces - bias), where the bias is what rates and wrenches
   /// on links (about their centres of mass) need, at the mean of the rates before and after, which makes it of second
@@ -101,9 +101,9 @@ class Tree {
   void factor();
   /// After factor().
   const BranchedFactors& factors() const { return factors_; }
-  /// Takes forces with their moments about a point, times `sign`, to the origin, and adds what they do along the degrees
-  /// of freedom that move a link: to one row for each, `width` numbers apart, which has a place for all degrees of
-  /// freedom. After factor().
+  /// Takes forces with their moments about a point, times `sign`, to the origin, and adds what they do along the
+  /// degrees of freedom that move a link: to one row for each, `width` numbers apart, which has a place for all degrees
+  /// of freedom. After factor().
   void project(int link, const Vector3& point, double sign, SpatialLanes* forces, int count, double* rows,
                std::size_t width) const;
 
@@ -113,8 +113,8 @@ class Tree {
 
   /// The link of kFree that carries a link; -1: the world carries it.
   int free_root(int link) const { return links_[index(link)].free_root; }
-  /// The momenta of links, N s and N m s about the origin, after a step with their velocities before it and the wrenches
-  /// on them, if they were not jointed.
+  /// The momenta of links, N s and N m s about the origin, after a step with their velocities before it and the
+  /// wrenches on them, if they were not jointed.
   void release(const std::vector<TreeLinkState>& states, const std::vector<SpatialLanes>& wrenches, double step,
                std::vector<SpatialLanes>& momenta) const;
   /// Of a link, at the present place and velocity.

@@ -128,8 +128,8 @@ BUBBLESIM_INLINE void Tree::find_need(int link, const double* rates, const Spati
   const Four spin = body.velocity.angular;
   const Four pull = body.acceleration.at(body.centre) + cross(spin, body.velocity.at(body.centre));
   body.needs.linear = pull * body.mass - wrench.linear;
-  body.needs.angular = body.inertia * body.acceleration.angular + cross(spin, body.inertia * spin) -
-                       wrench.angular + cross(body.centre, body.needs.linear);
+  body.needs.angular = body.inertia * body.acceleration.angular + cross(spin, body.inertia * spin) - wrench.angular +
+                       cross(body.centre, body.needs.linear);
 }
 
 /// Passes the needs on to the parents, as far as the joints do not give way to the forces that are left.

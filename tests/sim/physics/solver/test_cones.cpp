@@ -92,8 +92,7 @@ TEST(Boxes, OnFourCornersSlideAndHold) {
     SpatialLanes wrench;
     wrench.linear = Four{30 * any(random), 30 * any(random), -2 * kGravity, 0};
     wrench.angular = Four{0.1 * any(random), 0, any(random), 0};
-    tree.push(kStep, {wrench},
-              Eigen::VectorXd::Zero(6));
+    tree.push(kStep, {wrench}, Eigen::VectorXd::Zero(6));
     ConstraintRows rows;
     for (const double x : {-0.3, 0.3}) {
       for (const double y : {-0.2, 0.2}) add_contact(rows, {&tree, 0}, {x, y, -0.1}, kMu, true);
