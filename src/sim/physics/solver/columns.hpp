@@ -33,7 +33,7 @@ class Columns {
  public:
   static std::size_t in_groups(std::size_t count) { return (count + 3) / 4 * 4; }
 
-  /// The values are anything.
+  /// The values are anything, also those that fill up.
   void resize(int rows, int columns) {
     rows_ = rows;
     columns_ = columns;
@@ -62,7 +62,7 @@ class Columns {
 
   /// Makes this the matrix whose rows are given, each with `stride` numbers, which is a multiple of four.
   void set_rows(const double* given, int rows, int columns, std::size_t stride);
-  /// Makes this A W A^T, with a weight for each column of A. Beyond its own rows, the columns have anything.
+  /// Makes this A W A^T, with a weight for each column of A.
   void set_weighted_square(const Columns& a, const double* weights);
   /// Sets `length()` numbers to the product with a vector.
   void multiply(const double* vector, double* product) const;
