@@ -156,13 +156,16 @@ void search_contacts(Substep& substep) {
   }
   // Collide models with each other; shapes of one model collide only with self_collide.
   if (moving.awake.size() > 1) dSpaceCollide(spaces.movers.get(), &substep, touch_spaces);
-  const bool any_sleeps = moving.awake.size() < moving.all.size();
+  std::vector<NearShapes>& near = substep.contacts.near;
+  near.resize(moving.all.size());
   for (const PlacedModel* model : moving.awake) {
     dSpaceID space = model->space.get();
     if (model->description.self_collide) dSpaceCollide(space, &substep, touch);
-    if (any_sleeps) dSpaceCollide2(as_geom(space), as_geom(spaces.sleepers.get()), &substep, touch_spaces);
-    dSpaceCollide2(as_geom(space), as_geom(spaces.statics.get()), &substep, touch);
     dSpaceCollide2(as_geom(space), as_geom(spaces.planes.get()), &substep, touch);
+    const Eigen::AlignedBox3d box = box_of(as_geom(space));
+    for (const NearShapes::Shape& shape : near[static_cast<std::size_t>(model->number)].around(box, spaces)) {
+      if (shape.box.intersects(box)) dSpaceCollide2(as_geom(space), shape.geom, &substep, touch);
+    }
   }
 }
 

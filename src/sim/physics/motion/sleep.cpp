@@ -116,14 +116,15 @@ void rest(Substep& substep) {
   if (any) sort_by_sleep(moving, substep.spaces, substep.contacts);
 }
 
-void wake(MovingModels& moving, const Spaces& spaces, Contacts& contacts) {
+void wake(MovingModels& moving, Spaces& spaces, Contacts& contacts) {
   const bool any_sleeps = moving.awake.size() < moving.all.size();
   for (PlacedModel* model : moving.all) wake_model(*model);
   if (any_sleeps) sort_by_sleep(moving, spaces, contacts);
 }
 
-void sort_by_sleep(MovingModels& moving, const Spaces& spaces, Contacts& contacts) {
+void sort_by_sleep(MovingModels& moving, Spaces& spaces, Contacts& contacts) {
   moving.awake.clear();
+  ++spaces.changes;
   for (PlacedModel* model : moving.all) {
     if (model->rest.is_awake()) moving.awake.push_back(model);
     dSpaceID space = (model->rest.is_awake() ? spaces.movers : spaces.sleepers).get();

@@ -17,10 +17,10 @@ bool wake_touched(Substep& substep);
 /// Measures rest after a substep, and puts islands to sleep.
 void rest(Substep& substep);
 /// Wakes all models, after one was moved or removed that may support them.
-void wake(MovingModels& moving, const Spaces& spaces, Contacts& contacts);
+void wake(MovingModels& moving, Spaces& spaces, Contacts& contacts);
 /// Updates the list of the models that are awake, the spaces, and the memories of contacts, after models were added,
 /// went to sleep, or woke up.
-void sort_by_sleep(MovingModels& moving, const Spaces& spaces, Contacts& contacts);
+void sort_by_sleep(MovingModels& moving, Spaces& spaces, Contacts& contacts);
 
 /// Adds what the later sleep of a model depends on.
 void add_rest(Fnv1a& hash, const PlacedModel& model);

@@ -115,6 +115,7 @@ void gather_statics(WorldState& state) {
   }
   state.spaces.statics.reset(make_quadtree(extent, geoms.size()));
   for (dGeomID geom : geoms) dSpaceAdd(state.spaces.statics.get(), geom);
+  ++state.spaces.changes;
   state.statics_stale = false;
 }
 

@@ -50,6 +50,7 @@ void place_static(WorldState& state, ObjectId id, const Pose& pose) {
     dGeomSetPosition(collider.geom.get(), placed.position.x(), placed.position.y(), placed.position.z());
     dGeomSetQuaternion(collider.geom.get(), to_ode(placed.orientation).data());
   }
+  ++state.spaces.changes;
   // Viewers leave out what never moved.
   if (state.moved_statics.insert(id).second) ++state.revision;
 }
