@@ -34,7 +34,8 @@ from ros_support import REPOSITORY, RosCore, free_port, wait_until
 from web_support import TOKEN
 
 _GROWTH = 10.0  # MB an hour that the node may grow: a queue or log that nobody empties grows faster
-_MORE = 2  # open files or threads that may be left at the end: a connection may just close
+_MORE_THREADS = 2  # that may be left at the end: a connection may just close
+_MORE_FILES = 5  # likewise, and each of rosmaster's three threads keeps a connection once it had something to report
 _LONGEST_END = 3.0  # s
 
 
@@ -150,9 +151,9 @@ def judge(samples: Sequence[Sample]) -> list[str]:
     """Return what grew too much. The first round is not counted: what it loads stays."""
     findings = []
     first, last = samples[1] if len(samples) > 1 else samples[0], samples[-1]
-    if last.files > first.files + _MORE:
+    if last.files > first.files + _MORE_FILES:
         findings.append(f"{last.files - first.files} more open files")
-    if last.threads > first.threads + _MORE:
+    if last.threads > first.threads + _MORE_THREADS:
         findings.append(f"{last.threads - first.threads} more threads")
     if last.hours > 0.5 and (rate := growth(samples)) > _GROWTH:  # before, the allocator's own habits decide
         findings.append(f"memory grows by {rate:.1f} MB an hour")
