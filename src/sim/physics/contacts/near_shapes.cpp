@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/contacts/near_shapes.hpp"
 
+#include "physics/ode/ode_math.hpp"
+
 namespace bubblesim {
 namespace {
 
 constexpr double kMargin = 0.5;  // of the region around a model, as a part of the diagonal of its box
 
 }  // namespace
-
-Eigen::AlignedBox3d box_of(dGeomID geom) {
-  dReal box[6];
-  dGeomGetAABB(geom, box);
-  return {Vector3(box[0], box[2], box[4]), Vector3(box[1], box[3], box[5])};
-}
 
 const std::vector<NearShapes::Shape>& NearShapes::around(const Eigen::AlignedBox3d& model, const Spaces& spaces) {
   if (changes_ == spaces.changes && region_.contains(model)) return shapes_;

@@ -33,7 +33,4 @@ class NearShapes {
   std::vector<Shape> shapes_;
 };
 
-/// Where ODE finds a shape, or those of a space.
-Eigen::AlignedBox3d box_of(dGeomID geom);
-
 }  // namespace bubblesim

@@ -64,10 +64,8 @@ class ImpactSearch {
   /// Tests a shape with all others in the box of its motion, except fast ones.
   void find_for(const Collider& collider) {
     current_ = &collider;
-    dReal box[6];
-    dGeomGetAABB(collider.geom.get(), box);
     const SweptMotion motion = motion_of(*collider.link);
-    const Bounds own(Vector3(box[0], box[2], box[4]), Vector3(box[1], box[3], box[5]));
+    const Bounds own = box_of(collider.geom.get());
     const Vector3 middle = own.center();
     const Bounds centres = Bounds(middle).extend(motion.back_to(0) * middle);
     const Vector3 size = centres.sizes() + Vector3::Constant(own.diagonal().norm());

@@ -24,6 +24,13 @@ inline Transform geom_transform(dGeomID geom) {
   return {to_vector(dGeomGetPosition(geom)), to_matrix(dGeomGetRotation(geom))};
 }
 
+/// The box with the axes of the world around a shape, or around those of a space.
+inline Eigen::AlignedBox3d box_of(dGeomID geom) {
+  dReal box[6];
+  dGeomGetAABB(geom, box);
+  return {Vector3(box[0], box[2], box[4]), Vector3(box[1], box[3], box[5])};
+}
+
 /// Of a body's centre of mass in the world.
 inline Transform body_transform(dBodyID body) {
   return {to_vector(dBodyGetPosition(body)), to_matrix(dBodyGetRotation(body))};

@@ -20,22 +20,12 @@ int quadtree_depth(std::size_t shapes) {
   return depth;
 }
 
-/// Bounding box of shapes; grows with them.
-struct Extent {
-  Vector3 low{-1, -1, -1};
-  Vector3 high{1, 1, 1};
+/// The least extent of a quadtree; it grows with the shapes.
+Eigen::AlignedBox3d least_extent() { return {Vector3(-1, -1, -1), Vector3(1, 1, 1)}; }
 
-  void include(dGeomID geom) {
-    dReal box[6];
-    dGeomGetAABB(geom, box);
-    low = low.cwiseMin(Vector3(box[0], box[2], box[4]));
-    high = high.cwiseMax(Vector3(box[1], box[3], box[5]));
-  }
-};
-
-dSpaceID make_quadtree(const Extent& extent, std::size_t shapes) {
-  const Vector3 centre = (extent.low + extent.high) / 2;
-  const Vector3 half = (extent.high - extent.low) / 2;
+dSpaceID make_quadtree(const Eigen::AlignedBox3d& extent, std::size_t shapes) {
+  const Vector3 centre = extent.center();
+  const Vector3 half = extent.sizes() / 2;
   const dVector3 ode_centre = {centre.x(), centre.y(), centre.z()};
   const dVector3 ode_half = {half.x(), half.y(), half.z()};
   return dQuadTreeSpaceCreate(nullptr, ode_centre, ode_half, quadtree_depth(shapes));
@@ -43,7 +33,7 @@ dSpaceID make_quadtree(const Extent& extent, std::size_t shapes) {
 
 /// Makes the space of sleeping models anew, of the size of where they are now.
 void fit_sleepers(WorldState& state) {
-  Extent extent;
+  Eigen::AlignedBox3d extent = least_extent();
   std::size_t props = 0;
   for (const PlacedModel* model : state.moving.all) {
     dGeomID shapes = reinterpret_cast<dGeomID>(model->space.get());
@@ -53,7 +43,7 @@ void fit_sleepers(WorldState& state) {
     }
     if (!model->prepared->is_prop) continue;
     ++props;
-    extent.include(shapes);
+    extent.extend(box_of(shapes));
   }
   state.spaces.sleepers.reset(props == 0 ? nullptr : make_quadtree(extent, props));
   // A model that is awake is searched among them as a whole.
@@ -102,7 +92,7 @@ void list_moving(WorldState& state) {
 void wake_all(WorldState& state) { wake(state.moving, state.spaces, state.contacts); }
 
 void gather_statics(WorldState& state) {
-  Extent extent;
+  Eigen::AlignedBox3d extent = least_extent();
   std::vector<dGeomID> geoms;
   for (const auto& model : state.models) {
     for (const Collider& collider : model->colliders) {
@@ -110,7 +100,7 @@ void gather_statics(WorldState& state) {
       if (collider.link->body != nullptr || std::holds_alternative<Plane>(collider.geometry)) continue;
       if (dGeomGetSpace(geom) != nullptr) dSpaceRemove(state.spaces.statics.get(), geom);
       geoms.push_back(geom);
-      extent.include(geom);
+      extent.extend(box_of(geom));
     }
   }
   state.spaces.statics.reset(make_quadtree(extent, geoms.size()));
