@@ -5,9 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "bubblesim/scene.hpp"
+#include "bubblesim/state_archive.hpp"
 #include "bubblesim/world.hpp"
 
 namespace bubblesim::test {
@@ -102,6 +104,18 @@ inline SceneDescription jointed(JointDescription joint) {
   robot.links.push_back(link("arm"));
   robot.joints.push_back(std::move(joint));
   return scene({robot}, Vector3::Zero());
+}
+
+inline std::string saved(World& world) {
+  std::string state;
+  StateArchive archive(state);
+  world.transfer(archive);
+  return state;
+}
+
+inline void restore(const std::string& state, World& world) {
+  StateArchive archive{std::string_view(state)};
+  world.transfer(archive);
 }
 
 /// The rotation of `b` relative to `a`: the angle about `axis`, in -pi..pi.

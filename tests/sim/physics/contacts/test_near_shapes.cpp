@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <string_view>
 
-#include "bubblesim/state_archive.hpp"
 #include "scenes.hpp"
 
 namespace bubblesim::test::test_near_shapes {
@@ -57,18 +55,6 @@ TEST(NearShapes, AModelThatIsAddedIsMet) {
   BallAndWall scene(at(50, 0, 0.25));
   scene.world.models().add(still(box("Other", at(0.6, 0, 0.25))));
   EXPECT_LT(scene.run(), 0.2);
-}
-
-std::string saved(World& world) {
-  std::string state;
-  StateArchive save(state);
-  world.transfer(save);
-  return state;
-}
-
-void restore(const std::string& state, World& world) {
-  StateArchive archive{std::string_view(state)};
-  world.transfer(archive);
 }
 
 /// A mill, which never sleeps, whose arm passes a box that sleeps.

@@ -4,9 +4,7 @@
 #include <ode/ode.h>
 
 #include <string>
-#include <string_view>
 
-#include "bubblesim/state_archive.hpp"
 #include "bubblesim/world_measurements.hpp"
 #include "scenes.hpp"
 
@@ -133,12 +131,8 @@ TEST(Sleep, EndsWhenAModelThatStayedAwakeTouchesIt) {
 TEST(Sleep, ContinuesFromASavedStateBitByBit) {
   World world(bat_and_tower(), 0);
   world.advance(3, kStep);
-  std::string saved;
-  StateArchive save(saved);
-  world.transfer(save);
   World other(bat_and_tower(), 0);
-  StateArchive restore{std::string_view(saved)};
-  other.transfer(restore);
+  restore(saved(world), other);
   for (World* each : {&world, &other}) {
     swing(*each);
     each->advance(1, kStep);

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "bubblesim/error.hpp"
-#include "bubblesim/state_archive.hpp"
 #include "bubblesim/world.hpp"
 #include "near.hpp"
 #include "scenes.hpp"
@@ -116,19 +115,12 @@ TEST_P(MovedHinge, ItsFrameIsAPartOfTheState) {
   turning.upper = 1;
   World world = world_with(turning);
   const std::uint64_t first = world.state_hash();
-  const auto state_of = [](World& saved) {
-    std::string state;
-    StateArchive archive(state);
-    saved.transfer(archive);
-    return state;
-  };
   world.set_pose(hinge_of(world), {{0.1, 0, 0}, from_rpy(0.2, 0, 0.3)});
   EXPECT_NE(world.state_hash(), first);
   world.advance(0.5, kStep);
-  const std::string state = state_of(world);
+  const std::string state = saved(world);
   World again = world_with(turning);
-  StateArchive archive(std::string_view{state});
-  again.transfer(archive);
+  restore(state, again);
   EXPECT_EQ(again.state_hash(), world.state_hash());
   for (World* each : {&world, &again}) {
     each->joints().set_target_effort(hinge_of(*each), 2);

@@ -5,10 +5,8 @@
 #include <functional>
 #include <set>
 #include <string>
-#include <string_view>
 
 #include "bubblesim/error.hpp"
-#include "bubblesim/state_archive.hpp"
 #include "bubblesim/world.hpp"
 #include "near.hpp"
 #include "scenes.hpp"
@@ -268,12 +266,8 @@ TEST(FixedToTheWorld, AModelStaysWhereItIsPut) {
     expect_near(put, elsewhere * at(0, 0, 1), 1e-9);
     moved.advance(1, kStep);
     expect_near(moved.pose(base), put, 1e-4);
-    std::string saved;
-    StateArchive save(saved);
-    moved.transfer(save);
     World other(fixed_arm(solver), 0);
-    StateArchive restore{std::string_view(saved)};
-    other.transfer(restore);
+    restore(saved(moved), other);
     EXPECT_EQ(other.state_hash(), moved.state_hash());
     other.advance(1, kStep);
     expect_near(other.pose(base), put, 1e-4);
