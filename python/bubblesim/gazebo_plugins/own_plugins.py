@@ -87,25 +87,25 @@ class _ExportedDevice:
     """A <class> in the file that a package exports to pluginlib."""
 
     package: Path  # folder
-    library: str  # path in the file, without .so
+    path: str  # of the library in the file, without .so
     name: str
     kind: str  # the name of the class in C++
 
     @property
     def file(self) -> str:
         """Return the name by which a <plugin> names the library."""
-        return _file(self.library)
+        return _file(self.path)
 
     def found(self) -> Path:
         """Return the library where pluginlib searches it: in workspaces, and in and beside the package."""
         prefixes = [Path(each) for each in os.environ.get("CMAKE_PREFIX_PATH", "").split(":") if each]
         folders = [*prefixes, *(prefix / "lib" for prefix in prefixes), self.package, self.package / "lib"]
         folders.append(self.package.parent.parent / "lib")  # of share/PACKAGE
-        names = [f"{self.library}.so", f"{Path(self.library).name}.so"]
+        names = [f"{self.path}.so", f"{Path(self.path).name}.so"]
         candidates = [folder / name for folder in folders for name in names]
         existing = next((each for each in candidates if each.is_file()), None)
         if existing is None:
-            raise OwnPluginError(f"{self.library}.so of {self.package} is not there: build the package")
+            raise OwnPluginError(f"{self.path}.so of {self.package} is not there: build the package")
         return existing
 
 

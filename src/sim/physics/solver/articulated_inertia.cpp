@@ -28,9 +28,10 @@ BUBBLESIM_INLINE void sweep(const double* added, SpatialLanes* columns, TreeDof*
   dofs[k].inverse_inertia = inverse;
   set(own, -1);
   for (int j = 0; j < 6; ++j) {
+    if (j == k) continue;
     const double factor = j < 3 ? passes.angular[j] : passes.linear[j - 3];
-    if (j != k) set(columns[j], 0);
-    if (j != k) columns[j].add(-factor, own);
+    set(columns[j], 0);
+    columns[j].add(-factor, own);
   }
   columns[k] = {own.angular * inverse, own.linear * inverse};
 }

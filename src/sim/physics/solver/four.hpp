@@ -24,7 +24,7 @@ BUBBLESIM_INLINE Four load_four(const double* numbers) {
 }
 BUBBLESIM_INLINE void store_four(double* numbers, const Four& four) { std::memcpy(numbers, &four, sizeof four); }
 
-/// Tells 0 from -0.
+/// 0 and -0 differ.
 BUBBLESIM_INLINE bool has_same_bits(const Four& a, const Four& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 }  // namespace bubblesim
