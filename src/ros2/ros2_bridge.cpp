@@ -257,6 +257,7 @@ EndpointId Ros2Bridge::advertise_service_later(const std::string& name, const Se
 }
 
 void Ros2Bridge::reply(EndpointId server, messages::RequestNumber request, WireBuffer response) {
+  impl_->outbox.settle();  // clients of an action drop the feedback that comes after the result
   impl_->services.reply(server, request, std::move(response));
 }
 

@@ -31,6 +31,8 @@ class Outbox {
 
   /// Waits a moment for a place if `depth` messages of the publisher wait, then drops the oldest of them.
   void add(const std::shared_ptr<Outgoing>& outgoing, messages::WireBuffer message);
+  /// Waits a moment until all messages are written: what is sent without the outbox next comes after them.
+  void settle();
   /// Waits a moment until the messages of the publisher are written, and drops those that are not. Its writer is not
   /// used any more.
   void finish(const Outgoing& outgoing);

@@ -27,7 +27,7 @@ export class LiveVideo {
     this.#begin = performance.now();
     this.#next = 0;
     this.#off = this.#view.on("drawn", () => this.#add(false));
-    this.#view.invalidate();
+    this.#view.draw(); // at once: the view may turn before its next picture
   }
 
   /// Ends it, and returns the file as a Blob.
