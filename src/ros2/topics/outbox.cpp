@@ -10,7 +10,7 @@
 namespace bubblesim::ros2 {
 namespace {
 
-constexpr std::chrono::milliseconds kMostWaiting{10};   // a subscriber that is stopped holds up writes
+constexpr std::chrono::milliseconds kMostWaiting{10};    // a subscriber that is stopped holds up writes
 constexpr std::chrono::milliseconds kMostFinishing{50};  // for the last messages
 
 }  // namespace
