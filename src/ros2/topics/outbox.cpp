@@ -10,8 +10,8 @@
 namespace bubblesim::ros2 {
 namespace {
 
-constexpr std::chrono::milliseconds kMostWaiting{10};    // a subscriber that is stopped holds up writes
-constexpr std::chrono::milliseconds kMostFinishing{50};  // for the last messages
+constexpr std::chrono::milliseconds kMostForWriting{10};  // a subscriber that is stopped holds up writes
+constexpr std::chrono::milliseconds kMostFinishing{50};   // for the last messages
 
 }  // namespace
 
@@ -30,7 +30,7 @@ void Outbox::add(const std::shared_ptr<Outgoing>& outgoing, messages::WireBuffer
   {
     std::unique_lock lock(mutex_);
     const auto has_place = [&] { return outgoing->depth == 0 || outgoing->messages.size() < outgoing->depth; };
-    if (has_place() || written_.wait_for(lock, kMostWaiting, has_place)) {
+    if (has_place() || written_.wait_for(lock, kMostForWriting, has_place)) {
       order_.push_back(outgoing);
     } else {
       outgoing->messages.pop_front();
@@ -42,7 +42,7 @@ void Outbox::add(const std::shared_ptr<Outgoing>& outgoing, messages::WireBuffer
 
 void Outbox::settle() {
   std::unique_lock lock(mutex_);
-  written_.wait_for(lock, kMostWaiting, [this] { return order_.empty() && in_hand_ == nullptr; });
+  written_.wait_for(lock, kMostForWriting, [this] { return order_.empty() && in_hand_ == nullptr; });
 }
 
 void Outbox::finish(const Outgoing& outgoing) {
