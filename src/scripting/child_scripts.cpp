@@ -150,8 +150,11 @@ ChildScripts::~ChildScripts() {
 }
 
 void ChildScripts::after_call() {
-  failures_ = methods_->self.attr("failures").cast<int>();
-  disabled_ = methods_->self.attr("disabled").cast<int>();
+  // Interned once, for each call in each step makes these two.
+  static const py::handle failures = PyUnicode_InternFromString("failures");
+  static const py::handle disabled = PyUnicode_InternFromString("disabled");
+  failures_ = methods_->self.attr(failures).cast<int>();
+  disabled_ = methods_->self.attr(disabled).cast<int>();
 }
 
 void ChildScripts::model_added(World& world, ObjectId model) {

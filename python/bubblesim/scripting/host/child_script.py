@@ -45,6 +45,7 @@ class ChildScript:
         self.failed = False
         self.failure = ""  # the first line of its error
         self.follows_pauses = False
+        self._is_of_sensor = False
         self.running = False  # its code is on the call stack
         self.activity = "loading"  # the callback or action that runs
         self.stuck_at = ""  # FILE:LINE where the watchdog found it
@@ -87,6 +88,7 @@ class ChildScript:
         for name, old in OLD_NAMES.items():
             self._hooks[name] = self._hooks[name] or self._code.function(old)
         self.follows_pauses = any(self._hooks[name] is not None for name in PAUSE_HOOKS)
+        self._is_of_sensor = any(self._hooks[name] is not None for name in ("sysCall_vision", "sysCall_trigger"))
         self._warn_of_unknown_callbacks()
         optional = ("sysCall_actuation", "sysCall_sensing", "sysCall_reset", "sysCall_cleanup", *PAUSE_HOOKS)
         if not any(self._hooks[name] for name in HOOKS if name not in optional):
@@ -173,6 +175,11 @@ class ChildScript:
 
     def sense(self) -> None:
         """Run sysCall_vision and sysCall_trigger of a sensor's script, and sysCall_sensing."""
+        if self._is_of_sensor:
+            self._sense_with_sensor()
+        self._call("sysCall_sensing")
+
+    def _sense_with_sensor(self) -> None:
         simulation = self.host.simulation
         handle = acting_object(simulation.world, self.object_handle)
         if self._hooks["sysCall_vision"] is not None and (data := sensor_callbacks.image_data(simulation, handle)):
@@ -181,7 +188,6 @@ class ChildScript:
             event = sensor_callbacks.trigger_data(simulation, handle, self.shared)
             if event is not None:
                 sensor_callbacks.keep_trigger_result(self.shared, handle, self.answer("sysCall_trigger", event))
-        self._call("sysCall_sensing")
 
     def call_hook(self, hook: str) -> None:
         """Run a callback without data of a script that has begun."""

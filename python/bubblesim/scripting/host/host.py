@@ -91,6 +91,7 @@ class ScriptHost:
         self._placed = [(path, self.simulation.object(path).handle, Path(file)) for path, file in scripts]
         self._placed.sort(key=lambda script: _turn(script[0], script[1]))
         self.scripts: list[ChildScript] = []
+        self._following_pauses: list[ChildScript] = []
         self._paused = False  # the state last reported to scripts
         self._next_check = 0.0 if watch else math.inf  # time of the next check of the files, by time.monotonic()
         script_sockets.install()
@@ -125,6 +126,7 @@ class ScriptHost:
     def count_disabled(self) -> None:
         """Update ``disabled``, which the node reads in each step, after a script was loaded, removed or disabled."""
         self.disabled = sum(script.failed for script in self.scripts)
+        self._following_pauses = [script for script in self.scripts if script.follows_pauses]
         self._substeps_stale = True
 
     def stop(self) -> None:
@@ -276,15 +278,14 @@ class ScriptHost:
 
     def process_input(self) -> None:
         """Call the pause callbacks of scripts when the state has changed; called also while paused."""
-        listening = [script for script in self.scripts if script.follows_pauses]
-        if listening:
+        if self._following_pauses:
             paused = bool(self.runner.state == _core.RunState.PAUSED)
             if paused:
                 hook = "sysCall_suspended" if self._paused else "sysCall_suspend"
             else:
                 hook = "sysCall_resume" if self._paused else ""
             self._paused = paused
-            for script in listening if hook else ():
+            for script in list(self._following_pauses) if hook else ():
                 script.call_hook(hook)
 
     def actuate(self) -> None:
@@ -298,7 +299,8 @@ class ScriptHost:
         if self._substeps_stale:
             self._substeps_stale = False
             self._substeps.prepare(self.scripts)
-        self._substeps.begin_step()
+        if self._substeps.are_called:
+            self._substeps.begin_step()
         if self.shared.edits.holds:
             self.shared.edits.apply(self.simulation.world, self.simulation.time_step)
 
@@ -329,7 +331,8 @@ class ScriptHost:
 
     def sense(self) -> None:
         """Call sysCall_sensing of all scripts, and then record graphs."""
-        self._substeps.end_step()
+        if self._substeps.are_called:
+            self._substeps.end_step()
         if self.shared.edits.holds:
             self.shared.edits.apply(self.simulation.world)
         for script in self.scripts:

@@ -234,6 +234,8 @@ class ObjectFunctions(ApiContext):
         return list(linear), list(angular)
 
     def _pose(self, handle: int, relative_to: int) -> Vector:
+        if relative_to == WORLD and handle < self.handleflag_reljointbaseframe:  # most calls
+            return self._tree.pose(self._resolve(handle))
         handle, relative_to = self._without_flag(handle, relative_to)
         handle = self._resolve(handle)
         if relative_to == WORLD:
