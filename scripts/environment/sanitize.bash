@@ -84,12 +84,24 @@ run_python_tests() (
   export ASAN_OPTIONS="log_path=$reports/address detect_leaks=1 allocator_may_return_null=1"
   cd "$root" || return 1
   echo "[sanitize] address,undefined: Python tests"
-  # Left out: the memory of a queue, because AddressSanitizer keeps what was freed for a while.
-  python tests/sanitizers/run_pytest.py -q -p no:cacheprovider "${PYTHON_TESTS[@]}" \
-    --deselect tests/ros1/test_load.py::test_stopped_subscriber_costs_its_queue_and_the_others_nothing || failed=1
+  # A process for each file, and more of them than cores, as without sanitizers: each looks for leaks at its end.
+  find "${PYTHON_TESTS[@]}" -name 'test_*.py' | sort |
+    xargs -P "$(($(nproc) + 2))" -I{} bash -c 'run_python_file {}' || failed=1
   print_reports "$reports" "$root" || failed=1
   return $failed
 )
+
+# run_python_file FILE: prints its output when it has ended. Left out: the memory of a queue, because AddressSanitizer
+# keeps what was freed for a while.
+run_python_file() {
+  local output status=0
+  output=$(python tests/sanitizers/run_pytest.py -q -p no:cacheprovider "$1" \
+    --deselect tests/ros1/test_load.py::test_stopped_subscriber_costs_its_queue_and_the_others_nothing 2>&1) || status=$?
+  echo "$1: $(tail -n 1 <<<"$output")"
+  [[ $status -eq 0 ]] || echo "$output"
+  return $status
+}
+export -f run_python_file
 
 # print_reports FOLDER ROOT: returns 1 if there are any. Of leaks only those that code of the build has allocated:
 # Python keeps some memory until its end, and its frames cannot be suppressed by name, because they call our code.
