@@ -40,8 +40,8 @@ def check_topics(env: dict[str, str], *nodes: str, expected: list[str]) -> None:
 class Cost:
     """The processor time of the simulator in an interval of simulated time."""
 
-    most = 1.0
-    """s a second of simulated time."""
+    most = 4.0
+    """s a second of simulated time: only --long holds more, on an idle machine."""
 
     def __init__(self, core: RosCore) -> None:
         self._pid = core.pid_of("/gazebo")
@@ -55,7 +55,7 @@ class Cost:
 
 @pytest.fixture(autouse=True)
 def _three_times_as_fast_as_real_time(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Hold with --long: a core that other programs keep busy needs up to twice the time for the same work."""
+    """Hold with --long: a slow core that other programs keep busy needs several times the time for the same work."""
     if request.config.getoption("--long"):
         monkeypatch.setattr(Cost, "most", 1 / 3)
 
