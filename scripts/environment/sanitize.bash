@@ -86,7 +86,7 @@ run_python_tests() (
   echo "[sanitize] address,undefined: Python tests"
   # A process for each file, and more of them than cores, as without sanitizers: each looks for leaks at its end.
   find "${PYTHON_TESTS[@]}" -name 'test_*.py' | sort |
-    xargs -P "$(($(nproc) + 2))" -I{} bash -c 'run_python_file {}' || failed=1
+    xargs -P "$(($(nproc) + 2))" -n 1 bash -c 'run_python_file "$1"' bash || failed=1
   print_reports "$reports" "$root" || failed=1
   return $failed
 )

@@ -124,7 +124,7 @@ class ScriptHost:
         self.count_disabled()
 
     def count_disabled(self) -> None:
-        """Update ``disabled``, which the node reads in each step, after a script was loaded, removed or disabled."""
+        """Update what each step reads, such as ``disabled``, after a script was loaded, removed or disabled."""
         self.disabled = sum(script.failed for script in self.scripts)
         self._following_pauses = [script for script in self.scripts if script.follows_pauses]
         self._substeps_stale = True
@@ -285,7 +285,7 @@ class ScriptHost:
             else:
                 hook = "sysCall_resume" if self._paused else ""
             self._paused = paused
-            for script in list(self._following_pauses) if hook else ():
+            for script in self._following_pauses if hook else ():
                 script.call_hook(hook)
 
     def actuate(self) -> None:
@@ -299,8 +299,7 @@ class ScriptHost:
         if self._substeps_stale:
             self._substeps_stale = False
             self._substeps.prepare(self.scripts)
-        if self._substeps.are_called:
-            self._substeps.begin_step()
+        self._substeps.begin_step()
         if self.shared.edits.holds:
             self.shared.edits.apply(self.simulation.world, self.simulation.time_step)
 
@@ -331,8 +330,7 @@ class ScriptHost:
 
     def sense(self) -> None:
         """Call sysCall_sensing of all scripts, and then record graphs."""
-        if self._substeps.are_called:
-            self._substeps.end_step()
+        self._substeps.end_step()
         if self.shared.edits.holds:
             self.shared.edits.apply(self.simulation.world)
         for script in self.scripts:

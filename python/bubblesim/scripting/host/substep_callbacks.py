@@ -21,8 +21,6 @@ class SubstepCallbacks:
 
     def __init__(self, runner: Any, edits: SceneEdits) -> None:
         """Bind to the simulation of a runner."""
-        self.are_called = False
-        """Whether a script has callbacks for each substep; the begin and the end of a step matter only then."""
         self._runner = runner
         self._simulation = runner.simulation
         self._edits = edits
@@ -40,7 +38,6 @@ class SubstepCallbacks:
         names = ("sysCall_dyn", "sysCall_joint", "sysCall_contact")
         self._scripts = {name: [script for script in scripts if script.has_hook(name)] for name in names}
         in_substeps = bool(self._scripts["sysCall_dyn"] or self._scripts["sysCall_joint"])
-        self.are_called = in_substeps
         if in_substeps and self._call is None:
             self._call = SubstepCall(world, self._before_substep)
         elif not in_substeps and self._call is not None:

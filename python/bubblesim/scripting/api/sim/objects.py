@@ -238,8 +238,6 @@ class ObjectFunctions(ApiContext):
             return self._tree.pose(self._resolve(handle))
         handle, relative_to = self._without_flag(handle, relative_to)
         handle = self._resolve(handle)
-        if relative_to == WORLD:
-            return self._tree.pose(handle)
         joint = self._joint_with_base_frame(relative_to)
         if joint >= 0:
             return poses.multiply(self._motion_of(joint), self._tree.pose_in(handle, joint))
