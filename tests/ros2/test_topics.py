@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Topics of the node with nodes of ROS 2."""
 
+import threading
 import time
 from pathlib import Path
 
@@ -133,29 +134,59 @@ def test_large_images_arrive_whole_at_thirty_a_second(ros2_domain: Domain, ros2_
     assert {len(image["data"]) for image in images} == {640 * 480 * 3}
 
 
+PUBLISHES_AT_ITS_END = """
+    def sysCall_init():
+        self.topics = [simROS2.createPublisher(f'/topic{n}', 'std_msgs/msg/Float32', 100) for n in range(4)]
+
+    def sysCall_actuation():
+        publish(-1.0)
+
+    def sysCall_cleanup():
+        for count in range(50):
+            publish(count)
+
+    def publish(number):
+        for topic in self.topics:
+            simROS2.publish(topic, {'data': number})
+"""
+ITS_TOPICS = [f"/topic{n}" for n in range(4)]
+
+
 def test_what_a_script_publishes_at_its_end_arrives(ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path: Path) -> None:
-    script = """
-        def sysCall_init():
-            self.topics = [simROS2.createPublisher(f'/topic{n}', 'std_msgs/msg/Float32', 100) for n in range(4)]
-
-        def sysCall_actuation():
-            publish(-1.0)
-
-        def sysCall_cleanup():
-            for count in range(50):
-                publish(count)
-
-        def publish(number):
-            for topic in self.topics:
-                simROS2.publish(topic, {'data': number})
-    """
-    topics = [f"/topic{n}" for n in range(4)]
-    with node_with(ros2_domain, tmp_path, script) as node:
-        for topic in topics:
+    with node_with(ros2_domain, tmp_path, PUBLISHES_AT_ITS_END) as node:
+        for topic in ITS_TOPICS:
             ros2_peer.next(topic, FLOAT)
         assert node.end() == 0
-        for topic in topics:
+        for topic in ITS_TOPICS:
             wait_until(lambda topic=topic: ros2_peer.received(topic)[-1] == {"data": 49.0}, f"the last one on {topic}")
+
+
+def test_the_end_waits_for_a_subscriber_that_is_late(ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path: Path) -> None:
+    with node_with(ros2_domain, tmp_path, PUBLISHES_AT_ITS_END) as node:
+        for topic in ITS_TOPICS:
+            ros2_peer.next(topic, FLOAT)
+        ros2_peer.stop()
+        continued = threading.Timer(0.2, ros2_peer.go_on)
+        continued.start()
+        assert node.end() == 0
+        continued.join()
+        for topic in ITS_TOPICS:
+            wait_until(lambda topic=topic: ros2_peer.received(topic)[-1] == {"data": 49.0}, f"the last one on {topic}")
+
+
+def test_the_end_does_not_wait_for_subscribers_that_are_stopped(
+    ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path: Path
+) -> None:
+    with node_with(ros2_domain, tmp_path, PUBLISHES_AT_ITS_END) as node:
+        for topic in ITS_TOPICS:
+            ros2_peer.next(topic, FLOAT)
+        ros2_peer.stop()
+        begun = time.monotonic()
+        status = node.end()
+        took = time.monotonic() - begun
+        ros2_peer.go_on()
+        assert status == 0
+    assert took < 2.0  # half a second for all topics, and what the end of a process takes on a busy machine
 
 
 def test_a_topic_has_one_type_in_a_node(ros2_domain: Domain, tmp_path: Path) -> None:

@@ -36,13 +36,16 @@ class PeerProcess:
                 topic, message = json.loads(line, object_hook=_with_bytes)
                 self._received.setdefault(topic, []).append(message)
 
+    def close(self) -> None:
+        stop(self._process)
+
     def __enter__(self) -> Self:
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
-        stop(self._process)
+        self.close()
 
 
 def _with_bytes(found: dict[str, Any]) -> Any:

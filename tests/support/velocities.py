@@ -1,28 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Commands of a node on cmd_vel, recorded with `rostopic echo`."""
+"""Commands of a node on cmd_vel, as a subscriber gets them."""
 
 from pathlib import Path
 
-from ros_support import RosCore, start, stop
+from ros_peer import Peer
+from ros_support import RosCore
 
 
 class Velocities:
     """Subscribes from its construction on."""
 
-    def __init__(self, core: RosCore, file: Path) -> None:
-        self._file = file
-        with file.open("w") as output:
-            self._listener = start(["rostopic", "echo", "-p", "/cmd_vel"], core.env, stdout=output)
+    def __init__(self, core: RosCore, log: Path) -> None:
+        self._peer = Peer(core, log)
+        self._peer.received("/cmd_vel", "geometry_msgs/Twist")
 
     def all(self) -> list[tuple[float, float]]:
         """Return forward and turning velocity of each command so far."""
-        lines = self._file.read_text().rpartition("\n")[0].splitlines()  # the last one may not be complete
-        rows = [line.split(",") for line in lines[1:] if line.count(",") == lines[0].count(",")]
-        return [(float(row[1]), float(row[6])) for row in rows]
+        return [(twist["linear"]["x"], twist["angular"]["z"]) for twist in self._peer.received("/cmd_vel")]
 
     def last(self) -> tuple[float, float] | None:
         """Return forward and turning velocity of the last command, None before the first."""
         return (self.all() or [None])[-1]
 
     def close(self) -> None:
-        stop(self._listener)
+        self._peer.close()

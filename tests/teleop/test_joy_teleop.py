@@ -29,7 +29,7 @@ class Stick:
         self.received = Velocities(core, folder / "received")
         self._node = start([*NODE, f"_dev:={self._pipe}", *arguments], core.env)
         self.plug_in()
-        wait_until(lambda: self._has_received(), "a subscriber", timeout=3 * DEADLINE)  # rostopic takes its time
+        wait_until(lambda: self._has_received(), "a subscriber", timeout=3 * DEADLINE)
 
     def _has_received(self) -> bool:
         for value in (32767, 0):  # messages before the subscriber connects are lost

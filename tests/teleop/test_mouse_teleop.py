@@ -31,7 +31,7 @@ def test_dragging_drives_and_releasing_stops(display: Display, roscore: RosCore,
         display.xdotool("mousemove", "--window", window, 150, 140, "mousedown", 1, "mousemove_relative", 0, -10)
         return bool(received.all())
 
-    wait_until(drag_until_received, "a subscriber", timeout=3 * DEADLINE)  # rostopic takes its time
+    wait_until(drag_until_received, "a subscriber", timeout=3 * DEADLINE)
     display.xdotool("mousemove", "--window", window, 225, 75)
     wait_until(lambda: received.last() == pytest.approx((0.5, -1.0), abs=0.03), "half ahead, half to the right")
     count = len(received.all())

@@ -28,7 +28,7 @@ class Terminal:
         with self._shown.open("w") as output:
             self.process = start([*NODE, *arguments], core.env, stdin=self.screen, stdout=output)
         wait_until(lambda: "speed" in self.shown, "the speeds to be shown")
-        wait_until(lambda: self._has_received(), "a subscriber", timeout=3 * DEADLINE)  # rostopic takes its time
+        wait_until(lambda: self._has_received(), "a subscriber", timeout=3 * DEADLINE)
 
     def _has_received(self) -> bool:
         self.press("k")  # messages before the subscriber connects are lost

@@ -8,8 +8,11 @@ namespace bubblesim::ros2 {
 namespace {
 
 constexpr std::uint32_t kMostBlocking = 10'000'000;  // ns that a subscriber that is stopped may hold up write()
-constexpr std::int32_t kLeastKept = 10;              // messages of which lost parts can be sent again
-constexpr std::int32_t kUsualLimit = 5000;           // messages in the history of an endpoint
+// s and ns after which a subscriber is asked what it lacks, as long as it has not confirmed all: Fast DDS's own 3 s are
+// longer than a node may take to end.
+const Duration kHeartbeat{0, 50'000'000};
+constexpr std::int32_t kLeastKept = 10;     // messages of which lost parts can be sent again
+constexpr std::int32_t kUsualLimit = 5000;  // messages in the history of an endpoint
 
 Duration duration(double seconds) {
   const double whole = std::floor(seconds);
@@ -41,6 +44,7 @@ dds::DataWriterQos writer_qos(const messages::Qos& qos) {
   if (qos.reliable && !qos.transient_local && qos.depth != 0) {
     wanted.history().depth = std::max(wanted.history().depth, kLeastKept);
   }
+  wanted.reliable_writer_qos().times.heartbeatPeriod = kHeartbeat;
   wanted.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;  // a third of the time of the asynchronous one
   return wanted;
 }

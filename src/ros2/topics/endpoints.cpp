@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "topics/endpoints.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "graph/names.hpp"
 
 namespace bubblesim::ros2 {
-namespace {
-
-const Duration kLastMessages{0, 50'000'000};  // s and ns, for subscribers that do not answer
-
-}  // namespace
 
 class PublisherEndpoint::Listener final : public dds::DataWriterListener {
  public:
@@ -35,6 +31,14 @@ PublisherEndpoint::PublisherEndpoint(std::string topic, const messages::MessageT
 
 PublisherEndpoint::~PublisherEndpoint() { close(); }
 
+void PublisherEndpoint::deliver(std::chrono::steady_clock::time_point end) {
+  if (!writer_ || subscribers_ == 0) return;
+  outbox_.wait_until_written(*outgoing_, end);
+  const auto left =
+      std::max(std::chrono::nanoseconds(0), std::chrono::nanoseconds(end - std::chrono::steady_clock::now()));
+  (**writer_).wait_for_acknowledgments(Duration(0, static_cast<std::uint32_t>(left.count())));
+}
+
 void PublisherEndpoint::publish(messages::WireBuffer message) { outbox_.add(outgoing_, std::move(message)); }
 
 void PublisherEndpoint::open(Participant& participant) {
@@ -44,10 +48,8 @@ void PublisherEndpoint::open(Participant& participant) {
 
 void PublisherEndpoint::close() {
   if (!writer_) return;
-  // Reliable subscribers get the last messages, also those that scripts publish in sysCall_cleanup.
-  outbox_.finish(*outgoing_);
+  outbox_.drop(*outgoing_);
   outgoing_.reset();
-  if (subscribers_ > 0) (**writer_).wait_for_acknowledgments(kLastMessages);
   writer_.reset();
   subscribers_ = 0;
 }

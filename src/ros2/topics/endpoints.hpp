@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <string>
 
@@ -30,6 +31,9 @@ class PublisherEndpoint {
   void publish(messages::WireBuffer message);
 
   void open(Participant& participant);
+  /// Waits until reliable subscribers have all messages, or until `end`, which is less than a second away.
+  void deliver(std::chrono::steady_clock::time_point end);
+  /// Messages that are not delivered by then are lost.
   void close();
 
  private:

@@ -11,7 +11,6 @@ namespace bubblesim::ros2 {
 namespace {
 
 constexpr std::chrono::milliseconds kMostForWriting{10};  // a subscriber that is stopped holds up writes
-constexpr std::chrono::milliseconds kMostFinishing{50};   // for the last messages
 
 }  // namespace
 
@@ -45,13 +44,16 @@ void Outbox::settle() {
   written_.wait_for(lock, kMostForWriting, [this] { return order_.empty() && in_hand_ == nullptr; });
 }
 
-void Outbox::finish(const Outgoing& outgoing) {
+void Outbox::wait_until_written(const Outgoing& outgoing, std::chrono::steady_clock::time_point end) {
   std::unique_lock lock(mutex_);
-  const auto is_in_hand = [&] { return in_hand_ == &outgoing; };
-  written_.wait_for(lock, kMostFinishing, [&] { return outgoing.messages.empty() && !is_in_hand(); });
+  written_.wait_until(lock, end, [&] { return outgoing.messages.empty() && in_hand_ != &outgoing; });
+}
+
+void Outbox::drop(const Outgoing& outgoing) {
+  std::unique_lock lock(mutex_);
   order_.erase(std::remove_if(order_.begin(), order_.end(), [&](const auto& each) { return each.get() == &outgoing; }),
                order_.end());
-  written_.wait(lock, [&] { return !is_in_hand(); });
+  written_.wait(lock, [&] { return in_hand_ != &outgoing; });
 }
 
 void Outbox::run() {

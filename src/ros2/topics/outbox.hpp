@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -33,9 +34,10 @@ class Outbox {
   void add(const std::shared_ptr<Outgoing>& outgoing, messages::WireBuffer message);
   /// Waits a moment until all messages are written: what is sent without the outbox next comes after them.
   void settle();
-  /// Waits a moment until the messages of the publisher are written, and drops those that are not. Its writer is not
-  /// used any more.
-  void finish(const Outgoing& outgoing);
+  /// Waits until the messages of the publisher are written, or until `end`.
+  void wait_until_written(const Outgoing& outgoing, std::chrono::steady_clock::time_point end);
+  /// Drops the messages of the publisher that are not written. Its writer is not used any more.
+  void drop(const Outgoing& outgoing);
 
  private:
   void run();

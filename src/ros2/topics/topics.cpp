@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "topics/topics.hpp"
 
+#include <chrono>
 #include <set>
 #include <utility>
 
 namespace bubblesim::ros2 {
+namespace {
+
+constexpr std::chrono::milliseconds kMostDelivering{500};  // a subscriber may be busy, or stopped
+
+}  // namespace
 
 using messages::EndpointId;
 using messages::MessageType;
@@ -54,8 +60,15 @@ void Topics::shutdown_publisher(EndpointId publisher) {
   const std::shared_ptr<PublisherEndpoint> gone = std::move(found->second);
   endpoints_.publishers.erase(found);
   endpoints_.forget_yielding(publisher);
+  gone->deliver(end_of_delivery());  // also what scripts publish in sysCall_cleanup
   gone->close();
   settle(gone->topic());
+}
+
+std::chrono::steady_clock::time_point Topics::end_of_delivery() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now > first_delivery_ + std::chrono::seconds(1)) first_delivery_ = now;
+  return first_delivery_ + kMostDelivering;
 }
 
 void Topics::shutdown_subscriber(EndpointId subscriber) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <string>
 
 #include "bubblesim/messages/bridge.hpp"
@@ -34,11 +35,15 @@ class Topics {
  private:
   /// Opens the endpoints that yield on this topic, or closes them.
   void settle(const std::string& topic);
+  /// Until when a publisher that shuts down waits for its subscribers. All that do so within a second have the same
+  /// end: the end of a script or node with many takes no longer.
+  std::chrono::steady_clock::time_point end_of_delivery();
 
   Participant& participant_;
   Inbox& inbox_;
   Outbox& outbox_;
   Traffic& traffic_;
+  std::chrono::steady_clock::time_point first_delivery_;
   TopicEndpoints<PublisherEndpoint, SubscriberEndpoint> endpoints_;  // what is off is closed
 };
 
