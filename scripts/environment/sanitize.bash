@@ -51,21 +51,34 @@ use_sanitized() {
   export PATH=$root/.ws/venv/bin:/usr/bin:/bin:$PATH
 }
 
-# run_cpp_tests ROOT KIND FILTER
+# run_cpp_tests ROOT KIND FILTER: each program as often as there are cores, with a part of its tests each time.
 run_cpp_tests() (
-  local root=$1 kind=$2 filter=$3 build program failed=0
+  local root=$1 kind=$2 filter=$3 build
   local suppressions=$root/tests/sanitizers
   build=$(sanitized_folder "$root" "$kind")
   use_sanitized "$root" "$build"
-  while read -r program; do
-    echo "[sanitize] $kind: $(basename "$program")"
-    # ThreadSanitizer needs addresses that are not randomised.
-    TSAN_OPTIONS="suppressions=$suppressions/thread.supp exitcode=66" \
-      LSAN_OPTIONS="suppressions=$suppressions/leak.supp" UBSAN_OPTIONS="print_stacktrace=1 halt_on_error=1" \
-      PYTHONMALLOC=malloc setarch -R "$program" --gtest_brief=1 --gtest_filter="$filter" || failed=1
-  done < <(find "$build/tests" "$build/devel/lib/bubblesim" -name 'test_*' -type f -executable ! -name '*.*' 2>/dev/null | sort)
-  return $failed
+  export TSAN_OPTIONS="suppressions=$suppressions/thread.supp exitcode=66"
+  export LSAN_OPTIONS="suppressions=$suppressions/leak.supp" UBSAN_OPTIONS="print_stacktrace=1 halt_on_error=1"
+  export PYTHONMALLOC=malloc GTEST_BRIEF=1 GTEST_FILTER=$filter
+  GTEST_TOTAL_SHARDS=$(nproc)
+  export GTEST_TOTAL_SHARDS
+  echo "[sanitize] $kind: C++ tests"
+  find "$build/tests" "$build/devel/lib/bubblesim" -name 'test_*' -type f -executable ! -name '*.*' 2>/dev/null | sort |
+    while read -r program; do
+      for ((part = 0; part < GTEST_TOTAL_SHARDS; ++part)); do printf '%s\n' "$part" "$program"; done
+    done | xargs -d '\n' -P "$(nproc)" -n 2 bash -c 'run_cpp_program "$1" "$2"' bash
 )
+
+# run_cpp_program PART PROGRAM: prints its output when it has ended.
+run_cpp_program() {
+  local output status=0
+  # ThreadSanitizer needs addresses that are not randomised.
+  output=$(GTEST_SHARD_INDEX=$1 setarch -R "$2" 2>&1) || status=$?
+  echo "$(basename "$2"), part $1: exit code $status"
+  [[ $status -eq 0 ]] || echo "$output"
+  return $status
+}
+export -f run_cpp_program
 
 # The Python tests of what C++ does for Python and ROS. Reports go to files: some tests expect that a program fails.
 run_python_tests() (

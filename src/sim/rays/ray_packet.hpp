@@ -2,6 +2,7 @@
 // A packet of sixteen rays, the unit of Embree queries.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "bubblesim/math.hpp"
@@ -15,6 +16,8 @@ constexpr int kUsed = -1;  ///< in a mask; 0: ray not used
 struct alignas(64) RayMask {
   int use[kPacket];
 };
+
+using PacketFloats = std::array<float, kPacket>;
 
 /// Sets origin and direction of ray `i`.
 inline void aim(RTCRay16& rays, std::size_t i, const Vector3& origin, const Vector3& direction) {

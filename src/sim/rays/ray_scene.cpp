@@ -2,7 +2,7 @@
 #include "rays/ray_scene.hpp"
 
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <utility>
 
 #include "rays/housing.hpp"
@@ -78,8 +78,14 @@ void RayScene::place_scene(const SceneTree& tree) {
   scene_ = nullptr;
 }
 
+void RayScene::note_fixed_change() {
+  static std::atomic<std::uint64_t> last{0};
+  fixed_version_ = ++last;
+}
+
 void RayScene::place(SharedRayModel model) {
   planes_.insert(planes_.end(), model->planes.begin(), model->planes.end());
+  note_fixed_change();
   statics_changed_ = statics_changed_ || !model->fixed.empty();
   has_retro_ = has_retro_ || std::any_of(model->shapes.begin(), model->shapes.end(),
                                          [](const auto& shape) { return shape->laser_retro != 0; });
@@ -114,6 +120,7 @@ void RayScene::loosen(const World& world, ObjectId link) {
   loosened_.push_back(loosened(**model, link, pose));
   place_links(*loosened_.back());
   statics_changed_ = true;
+  note_fixed_change();
 }
 
 void RayScene::remove_model(ObjectId model) {
@@ -132,6 +139,7 @@ void RayScene::remove_model(ObjectId model) {
     statics_changed_ = true;
     statics_ = nullptr;  // refers to shapes of the model
   }
+  note_fixed_change();
   models_.erase(found);
   loosened_.erase(std::remove_if(loosened_.begin(), loosened_.end(),
                                  [model](const SharedRayModel& loose) { return loose->object == model; }),
@@ -181,7 +189,7 @@ bool RayScene::starts_in_housings(const RayPacket& packet, const QueryContext& c
   });
 }
 
-void RayScene::trace_once(RayPacket& packet, const RayMask& mask, QueryContext& context) const {
+void RayScene::meet_fixed(RayPacket& packet, const RayMask& mask, QueryContext& context) const {
   for (std::size_t p = 0; p < planes_.size(); ++p) {
     if (planes_[p].shape->model == context.ignored_model) continue;
     meet_plane(planes_[p].equation, static_cast<unsigned>(p), kPlaneInstance, mask, packet.data);
@@ -190,6 +198,9 @@ void RayScene::trace_once(RayPacket& packet, const RayMask& mask, QueryContext& 
   if (!starts_in_housings(packet, context)) {
     intersect_packet(mask.use, statics_->housings.get(), context.embree, packet.data);
   }
+}
+
+void RayScene::meet_moving(RayPacket& packet, const RayMask& mask, QueryContext& context) const {
   if (links_.size() > kFewLinks) return intersect_packet(mask.use, movers_.get(), context.embree, packet.data);
   Cone cone;
   cone.cosine = -1;
@@ -225,19 +236,38 @@ bool RayScene::seen_from_inside(const RayPacket& packet, RayMask& inside) const 
 void RayScene::trace(RayPacket& packet, bool coherent, ObjectId ignored) const {
   QueryContext context = make_context(coherent, ignored);
   if (ignored != kNoObject) context.embree.filter = keep_seen_hits;
-  alignas(64) std::array<float, kPacket> far;
+  PacketFloats far;
   std::copy_n(packet.data.ray.tfar, kPacket, far.begin());
-  trace_once(packet, packet.mask, context);
+  meet_fixed(packet, packet.mask, context);
+  meet_moving(packet, packet.mask, context);
+  if (ignored == kNoObject) leave_housings(packet, far, context);
+}
+
+void RayScene::trace_fixed(RayPacket& packet) const {
+  QueryContext context = make_context(true, kNoObject);
+  meet_fixed(packet, packet.mask, context);
+}
+
+void RayScene::trace_moving(RayPacket& packet, float far) const {
+  QueryContext context = make_context(true, kNoObject);
+  meet_moving(packet, packet.mask, context);
+  PacketFloats ends;
+  ends.fill(far);
+  leave_housings(packet, ends, context);
+}
+
+/// Traces rays that start inside a shape again, and rejects hits from inside.
+void RayScene::leave_housings(RayPacket& packet, const PacketFloats& far, QueryContext& context) const {
   RayMask inside;
-  if (ignored != kNoObject || !seen_from_inside(packet, inside)) return;
-  // Only a ray that starts inside a shape gets here: trace again and reject each such hit.
+  if (!seen_from_inside(packet, inside)) return;
   for (std::size_t i = 0; i < kPacket; ++i) {
     if (inside.use[i] == 0) continue;
     packet.data.ray.tfar[i] = far[i];
     packet.data.hit.geomID[i] = packet.data.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   context.embree.filter = keep_seen_hits;
-  trace_once(packet, inside, context);
+  meet_fixed(packet, inside, context);
+  meet_moving(packet, inside, context);
 }
 
 /// Calls `take` with each finite shape, its frame (null: the world), and the geometry and instance of its hits.

@@ -5,6 +5,7 @@
 // inside its own housing sees through it. Geometries are shared with the other simulations of a scene.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <set>
 #include <unordered_map>
@@ -41,6 +42,12 @@ class RayScene {
   /// Finds the nearest surface for each used ray, ignoring the model `ignored`. `coherent`: all rays start at one
   /// point, and neighbouring rays are nearly parallel.
   void trace(rays::RayPacket& packet, bool coherent, ObjectId ignored = kNoObject) const;
+  /// The same in two parts, for coherent rays that start where they did before: what does not move needs to be traced
+  /// once, until fixed_version() changes. `far` is the end of all rays before the first part.
+  void trace_fixed(rays::RayPacket& packet) const;
+  void trace_moving(rays::RayPacket& packet, float far) const;
+  /// Another number whenever what does not move has changed, and in each scene.
+  std::uint64_t fixed_version() const { return fixed_version_; }
   /// The number of all shapes.
   std::size_t shape_count() const;
   /// Adds all shapes, with the ids of their hits.
@@ -78,7 +85,10 @@ class RayScene {
   void place_links(const rays::RayModel& model);
   void loosen(const World& world, ObjectId link);
   void place_scene(const SceneTree& tree);
-  void trace_once(rays::RayPacket& packet, const rays::RayMask& mask, rays::QueryContext& context) const;
+  void note_fixed_change();
+  void meet_fixed(rays::RayPacket& packet, const rays::RayMask& mask, rays::QueryContext& context) const;
+  void meet_moving(rays::RayPacket& packet, const rays::RayMask& mask, rays::QueryContext& context) const;
+  void leave_housings(rays::RayPacket& packet, const rays::PacketFloats& far, rays::QueryContext& context) const;
   bool starts_in_housings(const rays::RayPacket& packet, const rays::QueryContext& context) const;
   bool seen_from_inside(const rays::RayPacket& packet, rays::RayMask& inside) const;
 
@@ -90,6 +100,7 @@ class RayScene {
   std::shared_ptr<const rays::StaticRays> statics_;
   rays::SceneHandle movers_;                        // null without moving links
   std::vector<std::unique_ptr<MovingLink>> links_;  // by instance id; null where one was removed
+  std::uint64_t fixed_version_ = 0;
   bool statics_changed_ = true;
   bool movers_changed_ = false;
   bool has_retro_ = false;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <mutex>
 #include <sstream>
@@ -43,6 +44,7 @@ bool replace_contents(const std::string& path, std::string_view text) {
   if (file.number < 0) return false;
   while (!text.empty()) {
     const ssize_t written = ::write(file.number, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
     if (written < 0) return false;
     text.remove_prefix(static_cast<std::size_t>(written));
   }

@@ -42,6 +42,9 @@ ModelDescription wall(const std::string& name, const Vector3& size, const Pose& 
   return still(model(name, link_with(Box{size}), pose));
 }
 
+/// Its face is at x = 3.
+ModelDescription wall_ahead() { return wall("Wall", {1, 1, 1}, at(3.5, 0, 1)); }
+
 /// Four walls whose inner faces lie at x = 4, x = -3, y = 2, y = -1.
 std::vector<ModelDescription> room() {
   return {wall("Front", {1, 20, 9}, at(4.5, 0, 0)), wall("Back", {1, 20, 9}, at(-3.5, 0, 0)),
@@ -156,6 +159,86 @@ TEST(Lidar, SeesTheHousingOfAnotherLidar) {
       simulation.remove_model(added);
     }
   }
+}
+
+void expect_range(float found, float expected, const char* what) {
+  if (std::isinf(expected)) {
+    EXPECT_EQ(found, expected) << what;
+  } else {
+    EXPECT_NEAR(found, expected, kExact) << what;
+  }
+}
+
+/// A lidar at a height of 1 m with a ray ahead and one that falls at 45 degrees, read twice at each place.
+class StandingLidar {
+ public:
+  StandingLidar() : simulation_(with_lidar(two_rays(), {model("Ball", link_with(Sphere{0.5}), at(0, 9, 1))}, kPlace)) {
+    expect(INFINITY, INFINITY, "nothing");
+  }
+  World& world() { return simulation_.world(); }
+  Simulation& simulation() { return simulation_; }
+  ObjectId find(const char* path) { return world().tree().find(path); }
+
+  void expect(float down, float ahead, const char* what) {
+    for (int scan = 0; scan < 2; ++scan) {
+      simulation_.step();
+      const std::vector<float> ranges = simulation_.measure(find("/Lidar"))->measurement.get<LidarScan>().ranges;
+      expect_range(ranges[0], down, what);
+      expect_range(ranges[1], ahead, what);
+    }
+  }
+
+ private:
+  static LidarDescription two_rays() {
+    LidarDescription lidar;
+    lidar.horizontal = {1, 0, 0};
+    lidar.vertical = {2, -M_PI / 4, 0};
+    lidar.min_range = 0.1;
+    lidar.max_range = 30;
+    return lidar;
+  }
+
+  static inline const Pose kPlace = at(0, 0, 1);
+  Simulation simulation_;
+};
+
+TEST(LidarThatStands, SeesWhatMoves) {
+  StandingLidar lidar;
+  const ObjectId ball = lidar.find("/Ball");
+  lidar.world().set_pose(ball, at(3, 0, 1));
+  lidar.expect(INFINITY, 2.5F, "the ball came");
+  lidar.world().set_pose(ball, at(5, 0, 1));
+  lidar.expect(INFINITY, 4.5F, "the ball moved");
+  lidar.world().set_pose(ball, at(0, 9, 1));
+  lidar.expect(INFINITY, INFINITY, "the ball left");
+  lidar.world().set_pose(ball, at(0.1, 0, 1));
+  lidar.expect(INFINITY, INFINITY, "the ball is around the lidar, and seen from inside");
+}
+
+TEST(LidarThatStands, SeesWhatIsAddedMovedAndRemoved) {
+  StandingLidar lidar;
+  const ObjectId wall = lidar.simulation().add_model(wall_ahead());
+  lidar.expect(INFINITY, 3, "a wall was added");
+  const ObjectId ground = lidar.simulation().add_model(floor());
+  lidar.expect(std::sqrt(2.0F), 3, "a floor was added");
+  lidar.world().set_pose(lidar.find("/Wall"), at(2.5, 0, 1));
+  lidar.expect(std::sqrt(2.0F), 2, "the wall was moved");
+  lidar.simulation().remove_model(wall);
+  lidar.expect(std::sqrt(2.0F), INFINITY, "the wall was removed");
+  lidar.simulation().remove_model(ground);
+  lidar.expect(INFINITY, INFINITY, "the floor was removed");
+}
+
+TEST(LidarThatStands, LooksFromWhereItIsMoved) {
+  StandingLidar lidar;
+  lidar.simulation().add_model(wall_ahead());
+  lidar.expect(INFINITY, 3, "a wall was added");
+  lidar.world().set_pose(lidar.find("/Eye"), at(1, 0, 1));
+  lidar.expect(INFINITY, 2, "the lidar moved");
+  lidar.world().set_pose(lidar.find("/Eye"), Pose(0, 0, 1, 0, 0, M_PI));
+  lidar.expect(INFINITY, INFINITY, "the lidar turned");
+  lidar.simulation().reset();
+  lidar.expect(INFINITY, 3, "the world was reset");
 }
 
 TEST(Lidar, OfManyRaysMeasuresAsOneOfFew) {

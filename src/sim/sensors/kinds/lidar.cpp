@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -57,6 +58,7 @@ class Lidar final : public Sensor {
     auto& scan = measurement.get<LidarScan>();
     context.rays.refresh(context.world);
     const Pose sensor = context.world.pose(id_);
+    note_place(sensor, context.rays);
     const Matrix3 turn = sensor.orientation.toRotationMatrix();
     const std::size_t parts = count_ < kRaysWorthThreads ? 1 : (count_ + kRaysPerPart - 1) / kRaysPerPart;
     const std::size_t length = parts == 1 ? count_ : kRaysPerPart;
@@ -66,16 +68,33 @@ class Lidar final : public Sensor {
     distort(context, scan.ranges);
   }
 
+  /// Before each scan: what does not move is kept from the second scan at a place on.
+  void note_place(const Pose& sensor, const RayScene& scene) {
+    const bool stands = sensor == place_ && scene.fixed_version() == fixed_version_;
+    const std::size_t packets = x_.size() / rays::kPacket;
+    uses_kept_ = stands && kept_.size() == packets;
+    keeps_ = stands && !uses_kept_;
+    kept_.resize(stands ? packets : 0);
+    place_ = sensor;
+    fixed_version_ = scene.fixed_version();
+  }
+
   void scan_part(const RayScene& scene, const Vector3& origin, const Matrix3& turn, std::size_t begin, std::size_t end,
-                 LidarScan& scan) const {
+                 LidarScan& scan) {
     const auto min_range = static_cast<float>(description_.min_range);
     const auto max_range = static_cast<float>(description_.max_range);
     rays::RayPacket packet;
     for (std::size_t first = begin; first < end; first += rays::kPacket) {
       const std::size_t count = std::min(rays::kPacket, end - first);
-      packet.start(origin, min_range, max_range, count);
-      rays::aim(packet.data.ray, turn, {&x_[first], &y_[first], &z_[first]});
-      scene.trace(packet, true);
+      if (uses_kept_) {
+        packet = kept_[first / rays::kPacket];
+      } else {
+        packet.start(origin, min_range, max_range, count);
+        rays::aim(packet.data.ray, turn, {&x_[first], &y_[first], &z_[first]});
+        scene.trace_fixed(packet);
+        if (keeps_) kept_[first / rays::kPacket] = packet;
+      }
+      scene.trace_moving(packet, max_range);
       rays::RayMask hits;
       rays::find_hits(packet.data.hit, packet.mask, hits);
       rays::keep_distances(packet.data.ray, hits, kNoRange, count, &scan.ranges[first]);
@@ -102,6 +121,13 @@ class Lidar final : public Sensor {
   ObjectId id_;
   std::size_t count_ = 0;
   std::vector<double> x_, y_, z_;  // directions in the sensor's frame, padded to whole packets
+
+  // A lidar that stands still traces only what moves.
+  Pose place_;  // at the last scan
+  std::uint64_t fixed_version_ = 0;
+  std::vector<rays::RayPacket> kept_;  // with their hits on what does not move; empty while it moves
+  bool uses_kept_ = false;             // in this scan
+  bool keeps_ = false;                 // those of this scan
 };
 
 }  // namespace
