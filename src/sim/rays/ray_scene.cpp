@@ -27,6 +27,12 @@ QueryContext make_context(bool coherent, ObjectId ignored) {
   return context;
 }
 
+PacketFloats ends_of(const RayPacket& packet) {
+  PacketFloats ends;
+  std::copy_n(packet.data.ray.tfar, kPacket, ends.begin());
+  return ends;
+}
+
 /// Rejects hits from inside and on the ignored model.
 void keep_seen_hits(const RTCFilterFunctionNArguments* arguments) {
   const auto& shape = *static_cast<const RayShape*>(arguments->geometryUserPtr);
@@ -233,19 +239,38 @@ bool RayScene::seen_from_inside(const RayPacket& packet, RayMask& inside) const 
   return any != 0;
 }
 
+/// Marks the rays that start inside a shape, and lets them start again.
+bool RayScene::restart_seen_from_inside(RayPacket& packet, const PacketFloats& far, RayMask& inside) const {
+  if (!seen_from_inside(packet, inside)) return false;
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    if (inside.use[i] == 0) continue;
+    packet.data.ray.tfar[i] = far[i];
+    packet.data.hit.geomID[i] = packet.data.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  return true;
+}
+
 void RayScene::trace(RayPacket& packet, bool coherent, ObjectId ignored) const {
   QueryContext context = make_context(coherent, ignored);
   if (ignored != kNoObject) context.embree.filter = keep_seen_hits;
-  PacketFloats far;
-  std::copy_n(packet.data.ray.tfar, kPacket, far.begin());
+  const PacketFloats far = ends_of(packet);
   meet_fixed(packet, packet.mask, context);
   meet_moving(packet, packet.mask, context);
-  if (ignored == kNoObject) leave_housings(packet, far, context);
+  RayMask inside;
+  if (ignored != kNoObject || !restart_seen_from_inside(packet, far, inside)) return;
+  context.embree.filter = keep_seen_hits;
+  meet_fixed(packet, inside, context);
+  meet_moving(packet, inside, context);
 }
 
 void RayScene::trace_fixed(RayPacket& packet) const {
   QueryContext context = make_context(true, kNoObject);
+  const PacketFloats far = ends_of(packet);
   meet_fixed(packet, packet.mask, context);
+  RayMask inside;
+  if (!restart_seen_from_inside(packet, far, inside)) return;
+  context.embree.filter = keep_seen_hits;
+  meet_fixed(packet, inside, context);
 }
 
 void RayScene::trace_moving(RayPacket& packet, float far) const {
@@ -253,21 +278,18 @@ void RayScene::trace_moving(RayPacket& packet, float far) const {
   meet_moving(packet, packet.mask, context);
   PacketFloats ends;
   ends.fill(far);
-  leave_housings(packet, ends, context);
-}
-
-/// Traces rays that start inside a shape again, and rejects hits from inside.
-void RayScene::leave_housings(RayPacket& packet, const PacketFloats& far, QueryContext& context) const {
   RayMask inside;
-  if (!seen_from_inside(packet, inside)) return;
-  for (std::size_t i = 0; i < kPacket; ++i) {
-    if (inside.use[i] == 0) continue;
-    packet.data.ray.tfar[i] = far[i];
-    packet.data.hit.geomID[i] = packet.data.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-  }
+  if (!restart_seen_from_inside(packet, ends, inside)) return;
   context.embree.filter = keep_seen_hits;
   meet_fixed(packet, inside, context);
   meet_moving(packet, inside, context);
+}
+
+bool RayScene::may_meet_moving(const Cone& cone) const {
+  if (links_.size() > kFewLinks) return true;
+  return std::any_of(links_.begin(), links_.end(), [&](const auto& link) {
+    return link != nullptr && reaches_into(link->middle, link->link->reach, cone);
+  });
 }
 
 /// Calls `take` with each finite shape, its frame (null: the world), and the geometry and instance of its hits.

@@ -16,6 +16,7 @@
 #include "bubblesim/world.hpp"
 #include "rays/faces_in_light.hpp"
 #include "rays/faces_in_view.hpp"
+#include "rays/packet_math.hpp"
 #include "rays/prepared_rays.hpp"
 #include "rays/ray_packet.hpp"
 #include "rays/ray_shape.hpp"
@@ -46,6 +47,8 @@ class RayScene {
   /// once, until fixed_version() changes. `far` is the end of all rays before the first part.
   void trace_fixed(rays::RayPacket& packet) const;
   void trace_moving(rays::RayPacket& packet, float far) const;
+  /// Whether the second part can find anything in the cone of the rays.
+  bool may_meet_moving(const rays::Cone& cone) const;
   /// Another number whenever what does not move has changed, and in each scene.
   std::uint64_t fixed_version() const { return fixed_version_; }
   /// The number of all shapes.
@@ -88,7 +91,7 @@ class RayScene {
   void note_fixed_change();
   void meet_fixed(rays::RayPacket& packet, const rays::RayMask& mask, rays::QueryContext& context) const;
   void meet_moving(rays::RayPacket& packet, const rays::RayMask& mask, rays::QueryContext& context) const;
-  void leave_housings(rays::RayPacket& packet, const rays::PacketFloats& far, rays::QueryContext& context) const;
+  bool restart_seen_from_inside(rays::RayPacket& packet, const rays::PacketFloats& far, rays::RayMask& inside) const;
   bool starts_in_housings(const rays::RayPacket& packet, const rays::QueryContext& context) const;
   bool seen_from_inside(const rays::RayPacket& packet, rays::RayMask& inside) const;
 

@@ -81,20 +81,15 @@ class Lidar final : public Sensor {
 
   void scan_part(const RayScene& scene, const Vector3& origin, const Matrix3& turn, std::size_t begin, std::size_t end,
                  LidarScan& scan) {
-    const auto min_range = static_cast<float>(description_.min_range);
-    const auto max_range = static_cast<float>(description_.max_range);
-    rays::RayPacket packet;
+    rays::RayPacket own;
     for (std::size_t first = begin; first < end; first += rays::kPacket) {
       const std::size_t count = std::min(rays::kPacket, end - first);
-      if (uses_kept_) {
-        packet = kept_[first / rays::kPacket];
-      } else {
-        packet.start(origin, min_range, max_range, count);
-        rays::aim(packet.data.ray, turn, {&x_[first], &y_[first], &z_[first]});
-        scene.trace_fixed(packet);
-        if (keeps_) kept_[first / rays::kPacket] = packet;
-      }
-      scene.trace_moving(packet, max_range);
+      const auto start = [&] {
+        own.start(origin, static_cast<float>(description_.min_range), static_cast<float>(description_.max_range),
+                  count);
+        rays::aim(own.data.ray, turn, {&x_[first], &y_[first], &z_[first]});
+      };
+      const rays::RayPacket& packet = trace(scene, first / rays::kPacket, start, own);
       rays::RayMask hits;
       rays::find_hits(packet.data.hit, packet.mask, hits);
       rays::keep_distances(packet.data.ray, hits, kNoRange, count, &scan.ranges[first]);
@@ -102,6 +97,25 @@ class Lidar final : public Sensor {
         scan.intensities[first + i] = packet.hit(i) ? scene.shape(packet, i).laser_retro : 0;
       }
     }
+  }
+
+  /// Returns a traced packet, `own` or one that was kept. `start` starts the rays of `own`.
+  template <class Start>
+  const rays::RayPacket& trace(const RayScene& scene, std::size_t number, const Start& start, rays::RayPacket& own) {
+    if (!uses_kept_) start();
+    if (!uses_kept_ && !keeps_) {
+      scene.trace(own, true);
+      return own;
+    }
+    Kept& kept = kept_[number];
+    if (keeps_) {
+      scene.trace_fixed(own);
+      kept = {own, rays::cone_around(own.data.ray, own.mask)};
+    }
+    if (!scene.may_meet_moving(kept.cone)) return kept.packet;
+    own = kept.packet;
+    scene.trace_moving(own, static_cast<float>(description_.max_range));
+    return own;
   }
 
   void distort(const MeasurementContext& context, std::vector<float>& ranges) const {
@@ -125,9 +139,13 @@ class Lidar final : public Sensor {
   // A lidar that stands still traces only what moves.
   Pose place_;  // at the last scan
   std::uint64_t fixed_version_ = 0;
-  std::vector<rays::RayPacket> kept_;  // with their hits on what does not move; empty while it moves
-  bool uses_kept_ = false;             // in this scan
-  bool keeps_ = false;                 // those of this scan
+  struct Kept {
+    rays::RayPacket packet;  // with its hits on what does not move
+    rays::Cone cone;         // around its rays
+  };
+  std::vector<Kept> kept_;  // empty while it moves
+  bool uses_kept_ = false;  // in this scan
+  bool keeps_ = false;      // those of this scan
 };
 
 }  // namespace
