@@ -66,7 +66,7 @@ run_cpp_tests() (
   find "$build/tests" "$build/devel/lib/bubblesim" -name 'test_*' -type f -executable ! -name '*.*' 2>/dev/null | sort |
     while read -r program; do
       for ((part = 0; part < GTEST_TOTAL_SHARDS; ++part)); do printf '%s\n' "$part" "$program"; done
-    done | xargs -d '\n' -P "$(nproc)" -n 2 bash -c 'run_cpp_program "$1" "$2"' bash
+    done | xargs -r -d '\n' -P "$GTEST_TOTAL_SHARDS" -n 2 bash -c 'run_cpp_program "$1" "$2"' bash
 )
 
 # run_cpp_program PART PROGRAM: prints its output when it has ended.

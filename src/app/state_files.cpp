@@ -14,22 +14,13 @@
 #include <string_view>
 
 #include "bubblesim/error.hpp"
+#include "bubblesim/write_all.hpp"
 
 namespace bubblesim::app {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, int error) {
   throw std::runtime_error(file.string() + ": cannot write the state: " + std::strerror(error));
-}
-
-bool write_all(int descriptor, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(descriptor, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
 }
 
 /// Writes a file that is not there, or sets errno and leaves none: in a folder of everybody, what has its name may be a

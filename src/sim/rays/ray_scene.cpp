@@ -20,6 +20,8 @@ constexpr std::size_t kFewLinks = 16;
 
 constexpr unsigned kPlaneInstance = RTC_INVALID_GEOMETRY_ID - 1;  // marks hits on planes_
 
+const Cone kAllAround{{}, {}, -1, 0};
+
 QueryContext make_context(bool coherent, ObjectId ignored) {
   QueryContext context;
   context.embree.coherent = coherent;
@@ -58,6 +60,7 @@ struct RayScene::MovingLink {
   bool is_near(const RTCRay16& rays, const RayMask& mask, RayMask& near) const {
     return can_meet_sphere(rays, mask.use, middle, link->reach, near);
   }
+  bool reaches_into(const Cone& cone) const { return rays::reaches_into(middle, link->reach, cone); }
 };
 
 RayScene::RayScene() = default;
@@ -206,16 +209,13 @@ void RayScene::meet_fixed(RayPacket& packet, const RayMask& mask, QueryContext& 
   }
 }
 
-void RayScene::meet_moving(RayPacket& packet, const RayMask& mask, QueryContext& context) const {
+void RayScene::meet_moving(RayPacket& packet, const RayMask& mask, const Cone& cone, QueryContext& context) const {
   if (links_.size() > kFewLinks) return intersect_packet(mask.use, movers_.get(), context.embree, packet.data);
-  Cone cone;
-  cone.cosine = -1;
-  if (context.embree.coherent && !links_.empty()) cone = cone_around(packet.data.ray, mask);
   for (std::size_t id = 0; id < links_.size(); ++id) {
     if (links_[id] == nullptr) continue;
     const MovingLink& link = *links_[id];
     RayMask near;
-    if (!reaches_into(link.middle, link.link->reach, cone) || !link.is_near(packet.data.ray, mask, near)) continue;
+    if (!link.reaches_into(cone) || !link.is_near(packet.data.ray, mask, near)) continue;
     RTCRayHit16 turned;
     into_frame(link.frame.rotation, link.frame.position, packet.data.ray, turned);
     intersect_packet(near.use, link.link->scene.get(), context.embree, turned);
@@ -239,28 +239,36 @@ bool RayScene::seen_from_inside(const RayPacket& packet, RayMask& inside) const 
   return any != 0;
 }
 
-/// Marks the rays that start inside a shape, and lets them start again.
-bool RayScene::restart_seen_from_inside(RayPacket& packet, const PacketFloats& far, RayMask& inside) const {
+/// Marks the rays that start inside a shape, and lets them start again without hits from inside.
+bool RayScene::restart_seen_from_inside(RayPacket& packet, const PacketFloats& far, RayMask& inside,
+                                        QueryContext& context) const {
   if (!seen_from_inside(packet, inside)) return false;
   for (std::size_t i = 0; i < kPacket; ++i) {
     if (inside.use[i] == 0) continue;
     packet.data.ray.tfar[i] = far[i];
     packet.data.hit.geomID[i] = packet.data.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
+  context.embree.filter = keep_seen_hits;
   return true;
+}
+
+/// Adds what moves to a packet that has met what does not.
+void RayScene::add_moving(RayPacket& packet, const Cone& cone, const PacketFloats& far, QueryContext& context) const {
+  meet_moving(packet, packet.mask, cone, context);
+  RayMask inside;
+  if (context.ignored_model != kNoObject || !restart_seen_from_inside(packet, far, inside, context)) return;
+  meet_fixed(packet, inside, context);
+  meet_moving(packet, inside, cone, context);
 }
 
 void RayScene::trace(RayPacket& packet, bool coherent, ObjectId ignored) const {
   QueryContext context = make_context(coherent, ignored);
   if (ignored != kNoObject) context.embree.filter = keep_seen_hits;
   const PacketFloats far = ends_of(packet);
+  Cone cone = kAllAround;
+  if (coherent && !links_.empty() && links_.size() <= kFewLinks) cone = cone_around(packet.data.ray, packet.mask);
   meet_fixed(packet, packet.mask, context);
-  meet_moving(packet, packet.mask, context);
-  RayMask inside;
-  if (ignored != kNoObject || !restart_seen_from_inside(packet, far, inside)) return;
-  context.embree.filter = keep_seen_hits;
-  meet_fixed(packet, inside, context);
-  meet_moving(packet, inside, context);
+  add_moving(packet, cone, far, context);
 }
 
 void RayScene::trace_fixed(RayPacket& packet) const {
@@ -268,28 +276,20 @@ void RayScene::trace_fixed(RayPacket& packet) const {
   const PacketFloats far = ends_of(packet);
   meet_fixed(packet, packet.mask, context);
   RayMask inside;
-  if (!restart_seen_from_inside(packet, far, inside)) return;
-  context.embree.filter = keep_seen_hits;
-  meet_fixed(packet, inside, context);
+  if (restart_seen_from_inside(packet, far, inside, context)) meet_fixed(packet, inside, context);
 }
 
-void RayScene::trace_moving(RayPacket& packet, float far) const {
+void RayScene::trace_moving(RayPacket& packet, const Cone& cone, float far) const {
   QueryContext context = make_context(true, kNoObject);
-  meet_moving(packet, packet.mask, context);
   PacketFloats ends;
   ends.fill(far);
-  RayMask inside;
-  if (!restart_seen_from_inside(packet, ends, inside)) return;
-  context.embree.filter = keep_seen_hits;
-  meet_fixed(packet, inside, context);
-  meet_moving(packet, inside, context);
+  add_moving(packet, cone, ends, context);
 }
 
 bool RayScene::may_meet_moving(const Cone& cone) const {
   if (links_.size() > kFewLinks) return true;
-  return std::any_of(links_.begin(), links_.end(), [&](const auto& link) {
-    return link != nullptr && reaches_into(link->middle, link->link->reach, cone);
-  });
+  return std::any_of(links_.begin(), links_.end(),
+                     [&](const auto& link) { return link != nullptr && link->reaches_into(cone); });
 }
 
 /// Calls `take` with each finite shape, its frame (null: the world), and the geometry and instance of its hits.

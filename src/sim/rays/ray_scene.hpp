@@ -44,10 +44,10 @@ class RayScene {
   /// point, and neighbouring rays are nearly parallel.
   void trace(rays::RayPacket& packet, bool coherent, ObjectId ignored = kNoObject) const;
   /// The same in two parts, for coherent rays that start where they did before: what does not move needs to be traced
-  /// once, until fixed_version() changes. `far` is the end of all rays before the first part.
+  /// once, until fixed_version() changes. `cone` is around the rays, `far` their end before the first part.
   void trace_fixed(rays::RayPacket& packet) const;
-  void trace_moving(rays::RayPacket& packet, float far) const;
-  /// Whether the second part can find anything in the cone of the rays.
+  void trace_moving(rays::RayPacket& packet, const rays::Cone& cone, float far) const;
+  /// Whether the second part can find anything.
   bool may_meet_moving(const rays::Cone& cone) const;
   /// Another number whenever what does not move has changed, and in each scene.
   std::uint64_t fixed_version() const { return fixed_version_; }
@@ -90,8 +90,12 @@ class RayScene {
   void place_scene(const SceneTree& tree);
   void note_fixed_change();
   void meet_fixed(rays::RayPacket& packet, const rays::RayMask& mask, rays::QueryContext& context) const;
-  void meet_moving(rays::RayPacket& packet, const rays::RayMask& mask, rays::QueryContext& context) const;
-  bool restart_seen_from_inside(rays::RayPacket& packet, const rays::PacketFloats& far, rays::RayMask& inside) const;
+  void meet_moving(rays::RayPacket& packet, const rays::RayMask& mask, const rays::Cone& cone,
+                   rays::QueryContext& context) const;
+  bool restart_seen_from_inside(rays::RayPacket& packet, const rays::PacketFloats& far, rays::RayMask& inside,
+                                rays::QueryContext& context) const;
+  void add_moving(rays::RayPacket& packet, const rays::Cone& cone, const rays::PacketFloats& far,
+                  rays::QueryContext& context) const;
   bool starts_in_housings(const rays::RayPacket& packet, const rays::QueryContext& context) const;
   bool seen_from_inside(const rays::RayPacket& packet, rays::RayMask& inside) const;
 

@@ -5,11 +5,12 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <filesystem>
 #include <mutex>
 #include <sstream>
 #include <string_view>
+
+#include "bubblesim/write_all.hpp"
 
 namespace bubblesim {
 namespace {
@@ -41,14 +42,7 @@ std::string create_file() {
 
 bool replace_contents(const std::string& path, std::string_view text) {
   const Descriptor file(::open(path.c_str(), O_WRONLY | O_TRUNC | O_NOFOLLOW | O_CLOEXEC));
-  if (file.number < 0) return false;
-  while (!text.empty()) {
-    const ssize_t written = ::write(file.number, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
+  return file.number >= 0 && write_all(file.number, text);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "rays/packet_math.hpp"
 #include "rays/ray_scene.hpp"
 #include "scene/describe.hpp"
+#include "scene/transform.hpp"
 #include "sensors/define.hpp"
 #include "sensors/worker_pool.hpp"
 #include "validation/limits.hpp"
@@ -45,6 +46,11 @@ class Lidar final : public Sensor {
   std::size_t ray_count() const override { return count_; }
 
  private:
+  struct Kept {
+    rays::RayPacket packet;  // with its hits on what does not move
+    rays::Cone cone;         // around its rays
+  };
+
   static LidarScan empty_scan(const LidarDescription& description) {
     LidarScan scan{description.horizontal, description.vertical, description.min_range, description.max_range, {}, {}};
     const auto rays = static_cast<std::size_t>(description.horizontal.samples) *
@@ -57,39 +63,47 @@ class Lidar final : public Sensor {
   void measure(const MeasurementContext& context, Measurement& measurement) override {
     auto& scan = measurement.get<LidarScan>();
     context.rays.refresh(context.world);
-    const Pose sensor = context.world.pose(id_);
-    note_place(sensor, context.rays);
-    const Matrix3 turn = sensor.orientation.toRotationMatrix();
+    const Pose place = context.world.pose(id_);
+    const bool keeps = must_keep(place, context.rays);
+    const Transform frame(place);
     const std::size_t parts = count_ < kRaysWorthThreads ? 1 : (count_ + kRaysPerPart - 1) / kRaysPerPart;
     const std::size_t length = parts == 1 ? count_ : kRaysPerPart;
     WorkerPool::shared().run(parts, [&](std::size_t part) {
-      scan_part(context.rays, sensor.position, turn, part * length, std::min(count_, (part + 1) * length), scan);
+      const std::size_t begin = part * length;
+      const std::size_t end = std::min(count_, begin + length);
+      if (keeps) keep_part(context.rays, frame, begin, end);
+      scan_part(context.rays, frame, begin, end, scan);
     });
     distort(context, scan.ranges);
   }
 
-  /// Before each scan: what does not move is kept from the second scan at a place on.
-  void note_place(const Pose& sensor, const RayScene& scene) {
-    const bool stands = sensor == place_ && scene.fixed_version() == fixed_version_;
-    const std::size_t packets = x_.size() / rays::kPacket;
-    uses_kept_ = stands && kept_.size() == packets;
-    keeps_ = stands && !uses_kept_;
-    kept_.resize(stands ? packets : 0);
-    place_ = sensor;
+  /// Before each scan: whether it is the second one at a place, from which on what does not move is kept. Forgets what
+  /// is kept of another place, or of what was there before.
+  bool must_keep(const Pose& place, const RayScene& scene) {
+    const bool stands = place == place_ && scene.fixed_version() == fixed_version_;
+    place_ = place;
     fixed_version_ = scene.fixed_version();
+    if (!stands) kept_.clear();
+    if (!stands || !kept_.empty()) return false;
+    kept_.resize(x_.size() / rays::kPacket);
+    return true;
   }
 
-  void scan_part(const RayScene& scene, const Vector3& origin, const Matrix3& turn, std::size_t begin, std::size_t end,
-                 LidarScan& scan) {
+  void keep_part(const RayScene& scene, const Transform& frame, std::size_t begin, std::size_t end) {
+    for (std::size_t first = begin; first < end; first += rays::kPacket) {
+      auto& [packet, cone] = kept_[first / rays::kPacket];
+      start(frame, first, end, packet);
+      cone = rays::cone_around(packet.data.ray, packet.mask);
+      scene.trace_fixed(packet);
+    }
+  }
+
+  void scan_part(const RayScene& scene, const Transform& frame, std::size_t begin, std::size_t end,
+                 LidarScan& scan) const {
     rays::RayPacket own;
     for (std::size_t first = begin; first < end; first += rays::kPacket) {
       const std::size_t count = std::min(rays::kPacket, end - first);
-      const auto start = [&] {
-        own.start(origin, static_cast<float>(description_.min_range), static_cast<float>(description_.max_range),
-                  count);
-        rays::aim(own.data.ray, turn, {&x_[first], &y_[first], &z_[first]});
-      };
-      const rays::RayPacket& packet = trace(scene, first / rays::kPacket, start, own);
+      const rays::RayPacket& packet = trace(scene, frame, first, end, own);
       rays::RayMask hits;
       rays::find_hits(packet.data.hit, packet.mask, hits);
       rays::keep_distances(packet.data.ray, hits, kNoRange, count, &scan.ranges[first]);
@@ -99,22 +113,25 @@ class Lidar final : public Sensor {
     }
   }
 
-  /// Returns a traced packet, `own` or one that was kept. `start` starts the rays of `own`.
-  template <class Start>
-  const rays::RayPacket& trace(const RayScene& scene, std::size_t number, const Start& start, rays::RayPacket& own) {
-    if (!uses_kept_) start();
-    if (!uses_kept_ && !keeps_) {
+  /// Sets the rays from `first` on, up to `end`.
+  void start(const Transform& frame, std::size_t first, std::size_t end, rays::RayPacket& packet) const {
+    packet.start(frame.position, static_cast<float>(description_.min_range), static_cast<float>(description_.max_range),
+                 std::min(rays::kPacket, end - first));
+    rays::aim(packet.data.ray, frame.rotation, {&x_[first], &y_[first], &z_[first]});
+  }
+
+  /// Returns the packet that was kept, or `own` if there is none or something that moves may be in its way.
+  const rays::RayPacket& trace(const RayScene& scene, const Transform& frame, std::size_t first, std::size_t end,
+                               rays::RayPacket& own) const {
+    if (kept_.empty()) {
+      start(frame, first, end, own);
       scene.trace(own, true);
       return own;
     }
-    Kept& kept = kept_[number];
-    if (keeps_) {
-      scene.trace_fixed(own);
-      kept = {own, rays::cone_around(own.data.ray, own.mask)};
-    }
+    const Kept& kept = kept_[first / rays::kPacket];
     if (!scene.may_meet_moving(kept.cone)) return kept.packet;
     own = kept.packet;
-    scene.trace_moving(own, static_cast<float>(description_.max_range));
+    scene.trace_moving(own, kept.cone, static_cast<float>(description_.max_range));
     return own;
   }
 
@@ -139,13 +156,7 @@ class Lidar final : public Sensor {
   // A lidar that stands still traces only what moves.
   Pose place_;  // at the last scan
   std::uint64_t fixed_version_ = 0;
-  struct Kept {
-    rays::RayPacket packet;  // with its hits on what does not move
-    rays::Cone cone;         // around its rays
-  };
   std::vector<Kept> kept_;  // empty while it moves
-  bool uses_kept_ = false;  // in this scan
-  bool keeps_ = false;      // those of this scan
 };
 
 }  // namespace
