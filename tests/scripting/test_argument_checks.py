@@ -10,7 +10,7 @@ from bubblesim.scripting.api.kinds import Kind
 from bubblesim.scripting.api.ros import ros_modules  # noqa: F401  # registers modules
 from bubblesim.scripting.api.sim import sim_module  # noqa: F401  # registers modules
 from node_support import run_sim, write
-from ros_support import free_port, ros_environment
+from ros_support import DEADLINE, free_port, ros_environment
 
 IN_PYTHON = """
     from hypothesis import HealthCheck, given, settings, strategies as st
@@ -124,7 +124,7 @@ def run(folder: Path, name: str, code: str) -> list[str]:
     """Return what the script prints, in a node without a master."""
     script = write(folder / name, code)
     options = ["--strict", "--speed", "max", "--until", 0.05, "--child-script", f"/Ball={script}"]
-    run = run_sim("ball", *options, env=ros_environment(free_port(), folder), timeout=240)
+    run = run_sim("ball", *options, env=ros_environment(free_port(), folder), timeout=12 * DEADLINE)
     assert run.returncode == 0, run.stderr
     return run.stdout.splitlines()
 

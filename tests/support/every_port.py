@@ -16,7 +16,7 @@ import zmq
 
 from node_support import NAME, Node
 from process_support import listening_ports, open_files
-from ros_support import DEADLINE, REPOSITORY, RosCore, free_port, wait_until
+from ros_support import DEADLINE, REPOSITORY, RosCore, free_port, stopped_on_failure, wait_until
 from web_support import TOKEN
 
 PORTS = ("XML-RPC", "TCPROS", "remote API", "window", "script")
@@ -54,6 +54,11 @@ class ListeningNode(Node):
         within = ("prlimit", f"--nofile={limit}") if limit else ()
         log = folder / f"node_{script}.txt"
         super().__init__(core.env | TOKEN | dict(env or {}), log, "tricycle_socket", *ports, *options, within=within)
+        with stopped_on_failure(self.process):
+            self._find_ports(core, remote, window, script)
+
+    def _find_ports(self, core: RosCore, remote: int, window: int, script: int) -> None:
+        """Set ``ports`` and wait until polite clients get an answer on each."""
         self.wait_for_output("remote clients can connect")
         self.wait_for_output("the window is at")
         self.wait_until_ready(core)

@@ -16,12 +16,12 @@ import aiohttp
 import cbor2
 
 from process_support import open_files
-from ros_support import free_port, start, stop, wait_until
+from ros_support import free_port, start, stop, stopped_on_failure, wait_until
 from web_support import TIMEOUT, TOKEN
 
 
 class Server:
-    """The server of the window; it ends with the block. it expects a simulator at `remote_port`."""
+    """The server of the window; it ends with the block. It expects a simulator at `remote_port`."""
 
     def __init__(self, folder: Path, *options: str, env: Mapping[str, str] | None = None) -> None:
         """Start it, with the token t unless the environment is given."""
@@ -31,7 +31,8 @@ class Server:
         with self._log.open("w") as output:
             self.process = start(command, env or os.environ | TOKEN, cwd=folder, stdout=output, stderr=output)
         self.origin = f"http://127.0.0.1:{self.port}"
-        wait_until(lambda: "the window is at" in self.output, "the server", timeout=TIMEOUT / 1000)
+        with stopped_on_failure(self.process):
+            wait_until(lambda: "the window is at" in self.output, "the server", timeout=TIMEOUT / 1000)
 
     def __enter__(self) -> Self:
         return self

@@ -10,7 +10,7 @@ import zmq
 from coppeliasim_zmqremoteapi_client import RemoteAPIClient
 
 from node_support import Node
-from ros_support import free_port, ros_environment, wait_until
+from ros_support import free_port, ros_environment, stopped_on_failure
 
 TIMEOUT = 20_000  # ms for a reply
 
@@ -27,7 +27,8 @@ class RemoteNode(Node):
         ros = [] if environment else ["--no-ros"]
         environment = environment or ros_environment(free_port(), folder)
         super().__init__(environment, log, scene, *ros, f"--remote={self.port}", *options)
-        wait_until(lambda: "remote clients can connect" in self.output, "the remote API")
+        with stopped_on_failure(self.process):
+            self.wait_for_output("remote clients can connect")
 
     def client(self) -> RemoteAPIClient:
         client = RemoteAPIClient(port=self.port)

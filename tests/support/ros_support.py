@@ -24,8 +24,9 @@ from bubblesim.program.groups import signal_group
 
 SUPPORT = Path(__file__).resolve().parent
 REPOSITORY = SUPPORT.parents[1]
-DEADLINE = 20.0
-"""Seconds after which an expected event counts as missing; long, because machines may be busy."""
+DEADLINE = 20.0 * float(os.environ.get("BUBBLESIM_TEST_PATIENCE", "1"))
+"""Seconds after which an expected event counts as missing; long, because machines may be busy, and longer for builds
+with sanitizers."""
 
 
 def built(name: str) -> Path:
@@ -87,6 +88,16 @@ def wait_until(condition: Callable[[], bool], what: str | Callable[[], str], tim
         time.sleep(0.02)
 
 
+@contextlib.contextmanager
+def stopped_on_failure(process: "subprocess.Popen[str]") -> Iterator[None]:
+    """Stop a process that has not become ready: no block holds it yet."""
+    try:
+        yield
+    except BaseException:
+        stop(process)
+        raise
+
+
 def ros_environment(port: int, log_directory: Path) -> dict[str, str]:
     """Return the environment for a process to use the master on `port` of this machine."""
     return {
@@ -135,7 +146,9 @@ class RosCore:
         self.process = start(
             ["roscore", "-p", str(self.port)], self.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
         )
-        wait_until(lambda: "/rosout" in self.state()["subscribers"], "roscore to start")  # the last thing that it does
+        with stopped_on_failure(self.process):
+            # The last thing that it does.
+            wait_until(lambda: "/rosout" in self.state()["subscribers"], "roscore to start")
         self._master_pid = int(self._ask_master("getPid", "/test"))
         self._first_state = self._all_state()
 

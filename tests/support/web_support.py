@@ -11,12 +11,12 @@ from typing import Any, Self
 import pytest
 from playwright.sync_api import Browser, ConsoleMessage, Page, Playwright, sync_playwright
 
-from ros_support import built, start, stop, wait_until
+from ros_support import DEADLINE, built, start, stop, stopped_on_failure, wait_until
 
 # Without --disable-gpu-compositing the whole page is drawn by the software GL, at twice the time.
 _FLAGS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing", "--no-sandbox"]
 TOKEN = {"BUBBLESIM_WEB_TOKEN": "t"}  # for the environment of a node or server
-TIMEOUT = 60_000  # ms, for a busy machine that draws without a GPU
+TIMEOUT = 3000 * DEADLINE  # ms, for a busy machine that draws without a GPU
 
 
 def launch_browser(playwright: Playwright) -> Browser:
@@ -47,11 +47,8 @@ class Node:
         command = [str(built("sim")), scene, "--no-ros", "--web", *options]
         self._output = (folder / "node.out").open("w")
         self.process = start(command, os.environ | TOKEN, stdout=self._output, stderr=self._errors)
-        try:
+        with stopped_on_failure(self.process):
             self.origin = self.find(r"the window is at (\S+)/\s")
-        except BaseException:
-            self.__exit__()
-            raise
         self.address = f"{self.origin}/#token=t"
 
     def find(self, pattern: str) -> str:

@@ -66,7 +66,10 @@ def run(scene: str, seconds: float, picture: Path) -> None:
     draw(scene, recording, picture)
     print(f"{recording.summary()}\npicture            {picture}", flush=True)
     if recording.distance() < _MIN_DISTANCE and not stop.requested:
-        raise RunError("nothing moved")
+        raise RunError(
+            f"nothing moved: no program sent commands to the robot of '{Path(scene).stem}' in {seconds:g} s; "
+            f"drive it yourself: rosrun bubblesim sim {scene} --web, and the keys W, A, S, D in the window"
+        )
 
 
 def _window() -> list[str]:
