@@ -24,7 +24,7 @@ from bubblesim.program.groups import signal_group
 
 SUPPORT = Path(__file__).resolve().parent
 REPOSITORY = SUPPORT.parents[1]
-DEADLINE = 20.0 * float(os.environ.get("BUBBLESIM_TEST_PATIENCE", "1"))
+DEADLINE = 20.0 * float(os.environ.get("BUBBLESIM_TEST_DEADLINE_FACTOR", "1"))
 """Seconds after which an expected event counts as missing; long, because machines may be busy, and longer for builds
 with sanitizers."""
 
