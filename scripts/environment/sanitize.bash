@@ -94,7 +94,8 @@ run_python_tests() (
   export UBSAN_OPTIONS="log_path=$reports/undefined print_stacktrace=1 halt_on_error=1"
   export LSAN_OPTIONS="suppressions=$root/tests/sanitizers/leak.supp print_suppressions=0 exitcode=0"
   # As malloc() without: scripts that ask for more than there is get a MemoryError.
-  export BUBBLESIM_TEST_DEADLINE_FACTOR=5 ASAN_OPTIONS="log_path=$reports/address detect_leaks=1 allocator_may_return_null=1"
+  export ASAN_OPTIONS="log_path=$reports/address detect_leaks=1 allocator_may_return_null=1"
+  export BUBBLESIM_TEST_DEADLINE_FACTOR=5
   cd "$root" || return 1
   echo "[sanitize] address,undefined: Python tests"
   # A process for each file, and more of them than cores, as without sanitizers: each looks for leaks at its end.

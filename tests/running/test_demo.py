@@ -77,7 +77,8 @@ def test_demo_ends_in_order_on_a_signal(number: signal.Signals, tmp_path: Path) 
 
 
 def test_demo_states_how_to_drive_a_robot_without_a_controller(tmp_path: Path) -> None:
-    output, _ = (process := demo(tmp_path, free_port(), "pioneer", "--seconds", "2")).communicate(timeout=120)
+    process = demo(tmp_path, free_port(), "pioneer", "--seconds", "2")
+    output, _ = process.communicate(timeout=120)
     assert process.returncode == 1, output
     assert "nothing moved: no program sent commands to the robot of 'pioneer' in 2 s" in output
     assert "rosrun bubblesim sim pioneer --web" in output

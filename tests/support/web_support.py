@@ -11,7 +11,7 @@ from typing import Any, Self
 import pytest
 from playwright.sync_api import Browser, ConsoleMessage, Page, Playwright, sync_playwright
 
-from ros_support import DEADLINE, built, start, stop, stopped_on_failure, wait_until
+from ros_support import DEADLINE, built, start, stop, wait_until
 
 # Without --disable-gpu-compositing the whole page is drawn by the software GL, at twice the time.
 _FLAGS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing", "--no-sandbox"]
@@ -47,8 +47,11 @@ class Node:
         command = [str(built("sim")), scene, "--no-ros", "--web", *options]
         self._output = (folder / "node.out").open("w")
         self.process = start(command, os.environ | TOKEN, stdout=self._output, stderr=self._errors)
-        with stopped_on_failure(self.process):
+        try:
             self.origin = self.find(r"the window is at (\S+)/\s")
+        except BaseException:
+            self.__exit__()
+            raise
         self.address = f"{self.origin}/#token=t"
 
     def find(self, pattern: str) -> str:
