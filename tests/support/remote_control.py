@@ -11,7 +11,7 @@ from types import TracebackType
 from typing import Any
 
 from node_support import NAME, Node
-from ros_support import start, stop, wait_until
+from ros_support import start, stop, stopped_on_failure, wait_until
 
 
 def wait_until_sent(env: dict[str, str], *topics: str) -> None:
@@ -38,7 +38,8 @@ class Remote:
         command = [sys.executable, "-u", str(Path(__file__).with_name("remote_control_node.py")), *topics]
         with log.open("w") as output:
             self._process = start(command, env, stdin=subprocess.PIPE, stdout=output)
-        wait_until(lambda: "connected" in log.read_text(), "the remote control to be connected")
+        with stopped_on_failure(self._process):
+            wait_until(lambda: "connected" in log.read_text(), "the remote control to be connected")
 
     def press(self, what: str) -> None:
         """Send `start`, `pause` or `stop`."""

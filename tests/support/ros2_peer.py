@@ -17,7 +17,7 @@ import pytest
 from bubblesim.running.isolation import reserve_domain
 from node_support import clean_environment
 from peer_process import PeerProcess
-from ros_support import DEADLINE, REPOSITORY, wait_until
+from ros_support import DEADLINE, REPOSITORY, stopped_on_failure, wait_until
 
 Message = dict[str, Any]
 PEERS = REPOSITORY / ".ws" / "ros2_peers"  # of Jazzy
@@ -69,7 +69,8 @@ class Ros2Peer(PeerProcess):
         command = [*within, str(peers / "bin" / "python"), "-u", program]
         super().__init__(command, peer_environment(domain, peers, **env), log)
         self._subscribed: set[str] = set()
-        self._wait_for("ready", 1)
+        with stopped_on_failure(self._process):
+            self._wait_for("ready", 1)
 
     def publish(self, topic: str, message_type: str, message: Message, **qos: Any) -> None:
         """Publish once the topic has a subscriber."""
