@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Joint stops and chains with great mass ratios."""
+"""Joint stops, motors that stall, and chains with great mass ratios."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from .experiment import Experiment, Tolerance, product_of
 from .mechanics import recorded, rotation
-from .scene import Body, Joint, Model, Scene, box_inertia, turned
+from .scene import GRAVITY, Body, Joint, Model, Scene, box_inertia, turned
 
 
 def inelastic(**case: Any) -> float:
@@ -44,6 +44,26 @@ def reached(engine: Any, kind: str, step: float) -> float:
     world = above_its_stop(engine, kind, step)
     world.run(2.0)
     return float(world.joint_position("joint"))
+
+
+ARM, REACH = 2.0, 0.5  # kg, m
+
+
+def stall_theory(share: float, step: float) -> float:
+    """A motor lifts an arm until m g l sin(a) is its greatest effort (statics); here a share of m g l."""
+    return math.degrees(math.asin(share))
+
+
+def stall(engine: Any, share: float, step: float) -> float:
+    """Lift a hanging arm slowly until its motor stalls; return the mean angle over a few swings after that."""
+    arm = Body("arm", ARM, box_inertia(ARM, (0.05, 0.05, 2 * REACH)), position=(0, 0, -REACH))
+    effort = share * ARM * GRAVITY * REACH
+    joint = Joint("joint", "revolute", "world", "arm", (0, 1, 0), (0, 0, 0), "velocity", effort)
+    world = engine(Scene((Model("model", (arm,), (joint,), (0, 0, 3)),), step=step, ground=False))
+    world.set_target("joint", 0.05)
+    world.run(80.0)
+    _, angles = recorded(world, 100.0, 0.05, lambda: world.joint_position("joint"))
+    return math.degrees(sum(angles) / len(angles))
 
 
 LINKS = 10
@@ -99,6 +119,15 @@ EXPERIMENTS = [
         reached,
         Tolerance("compliance of the stop", absolute=0.002),
         product_of(kind=("revolute", "prismatic"), step=(0.001, 0.005)),
+    ),
+    Experiment(
+        "stall",
+        "Arm that a weak motor lifts, angle where it stalls",
+        "deg",
+        stall_theory,
+        stall,
+        Tolerance("it swings by the target over the rate of swinging: 0.05 / 3 rad", absolute=1.0),
+        product_of(share=(0.25, 0.5, 0.8), step=(0.001, 0.005)),
     ),
     Experiment(
         "chain",

@@ -111,7 +111,8 @@ TreeModel::TreeModel(const PlacedModel& model) : model_(model), numbers_(model.l
   note_what_swings();
   keeps_momenta_ =
       std::any_of(model.joints.begin(), model.joints.end(), [](const auto& joint) { return joint.meter != nullptr; });
-  for (int i = 0; i < tree_.links(); ++i) keeps_momenta_ = keeps_momenta_ || tree_.free_root(i) >= 0;
+  for (int i = 0; i < tree_.links(); ++i) floats_ = floats_ || tree_.free_root(i) >= 0;
+  keeps_momenta_ = keeps_momenta_ || floats_;
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     if (used[i]) continue;
     loops_.push_back(i);
@@ -246,9 +247,27 @@ void TreeModel::begin(const Vector3& gravity, double step) {
 void TreeModel::move(const ConstraintRows& rows, double step) {
   const Vector3 before = tree_.origin();
   if (keeps_momenta_) rows.add_impulses(tree_, loose_);
+  const bool is_free = floats_ && rows.count() == 0;
+  if (is_free) {
+    tree_.set_velocities(tree_.rates());
+    coast(-step / 2);
+  }
   tree_.move(step);
   tree_.place();
+  if (is_free) {
+    tree_.weigh(added_);
+    coast(step / 2);
+    tree_.set_velocities(tree_.rates());
+  }
   if (keeps_momenta_) keep_momenta(before);
+}
+
+/// Changes the rates as the inertia of the links does alone, in a part of a substep. Where nothing else holds a
+/// floating robot, half of it acts at the place before and half at that after: else its joints would lose energy.
+void TreeModel::coast(double step) {
+  std::fill(wrenches_.begin(), wrenches_.end(), SpatialLanes());
+  forces_.setZero();
+  tree_.push(step, wrenches_, forces_);
 }
 
 /// Only what acts on a floating robot from outside changes its momentum: the efforts of its joints do not.

@@ -71,6 +71,7 @@ class TreeModel {
   void couple(std::size_t gearbox, ConstraintRows& rows, double step);
   void add_planar_motor(ConstraintRows& rows, double step);
   void move(const ConstraintRows& rows, double step);
+  void coast(double step);
   void keep_momenta(const Vector3& origin_before);
   void report_reactions();
   TreeBody body_of(ObjectId link);
@@ -91,6 +92,7 @@ class TreeModel {
   std::vector<MotorRow> motors_;
   std::vector<TreeLinkState> states_;
   std::vector<SpatialLanes> wrenches_;
+  bool floats_ = false;              // whether it has links that the world does not carry
   bool keeps_momenta_ = false;       // for floating roots, and for force-torque sensors
   std::vector<SpatialLanes> loose_;  // the links' momenta at the end of the substep if they were not jointed
   Eigen::VectorXd forces_, added_;
