@@ -5,12 +5,22 @@
 #   run_sanitizers ROOT [GTEST_FILTER]     with a filter only C++ tests
 
 # What C++ does for Python and for ROS.
-PYTHON_TESTS=(tests/bindings tests/ros1 tests/scripting tests/app)
+PYTHON_TESTS=(tests/bindings tests/ros1 tests/ros2 tests/scripting tests/app tests/remote tests/observers)
+# Limits of memory, because AddressSanitizer keeps what was freed for a while, and a launch file, because rosrun finds its
+# program in several builds of the clone.
+LEFT_OUT=(
+  tests/ros1/test_load.py::test_stopped_subscriber_costs_its_queue_and_the_others_nothing
+  tests/remote/test_hostile_clients.py::test_signals_and_custom_data_have_a_limit
+  tests/remote/test_hostile_clients.py::test_replies_that_are_not_read_fill_no_memory
+  tests/ros2/test_both.py::test_a_launch_file_starts_both_on_simulated_time
+)
 
 run_sanitizers() {
   local root=$1 filter=${2:-*} failed=0
+  local with_threads=$filter
+  [[ $filter != '*' ]] || with_threads='*-Snapshot.*'  # those have one thread, and take many minutes
   build_sanitized "$root" thread OFF || return 1
-  run_cpp_tests "$root" thread "$filter" || failed=1
+  run_cpp_tests "$root" thread "$with_threads" || failed=1
   build_sanitized "$root" address,undefined ON || return 1
   run_cpp_tests "$root" address,undefined "$filter" || failed=1
   [[ $filter != '*' ]] || run_python_tests "$root" || failed=1
@@ -37,6 +47,7 @@ build_sanitized() {
     { cat "$build.log"; return 1; }
   env -u CMAKE_PREFIX_PATH -u ROS_PACKAGE_PATH -u PYTHONPATH -u LD_LIBRARY_PATH -u PKG_CONFIG_PATH \
     cmake --build "$build" -j "$(nproc)" >> "$build.log" 2>&1 || { tail -n 50 "$build.log"; return 1; }
+  [[ $with == OFF ]] || ln -sfn "$root/.ws/devel/share/bubblesim/web" "$build/devel/share/bubblesim/web"  # the window's page
 }
 
 # Uses a build and its workspace, if it has ROS, not those of the caller; in a subshell.
@@ -93,24 +104,23 @@ run_python_tests() (
   export LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libstdc++.so)"
   export UBSAN_OPTIONS="log_path=$reports/undefined print_stacktrace=1 halt_on_error=1"
   export LSAN_OPTIONS="suppressions=$root/tests/sanitizers/leak.supp print_suppressions=0 exitcode=0"
-  # As malloc() without: scripts that ask for more than there is get a MemoryError.
-  export ASAN_OPTIONS="log_path=$reports/address detect_leaks=1 allocator_may_return_null=1"
+  # As malloc() without: scripts that ask for more than there is get a MemoryError. Fast DDS deletes an object of 88 bytes
+  # as one of 56 when a writer ends, which ends the node. The C++ tests, which have no writers, keep that check.
+  export ASAN_OPTIONS="log_path=$reports/address detect_leaks=1 allocator_may_return_null=1 new_delete_type_mismatch=0"
   export BUBBLESIM_TEST_DEADLINE_FACTOR=5
   cd "$root" || return 1
   echo "[sanitize] address,undefined: Python tests"
   # A process for each file, and more of them than cores, as without sanitizers: each looks for leaks at its end.
   find "${PYTHON_TESTS[@]}" -name 'test_*.py' | sort |
-    xargs -P "$(($(nproc) + 2))" -n 1 bash -c 'run_python_file "$1"' bash || failed=1
+    xargs -P "$(($(nproc) + 2))" -I FILE bash -c 'run_python_file "$@"' bash FILE "${LEFT_OUT[@]/#/--deselect=}" || failed=1
   print_reports "$reports" "$root" || failed=1
   return $failed
 )
 
-# run_python_file FILE: prints its output when it has ended. Left out: the memory of a queue, because AddressSanitizer
-# keeps what was freed for a while.
+# run_python_file FILE OPTION...: prints its output when it has ended.
 run_python_file() {
   local output status=0
-  output=$(python tests/sanitizers/run_pytest.py -q -p no:cacheprovider "$1" \
-    --deselect tests/ros1/test_load.py::test_stopped_subscriber_costs_its_queue_and_the_others_nothing 2>&1) || status=$?
+  output=$(python tests/sanitizers/run_pytest.py -q -p no:cacheprovider "$@" 2>&1) || status=$?
   echo "$1: $(tail -n 1 <<<"$output")"
   [[ $status -eq 0 ]] || echo "$output"
   return $status

@@ -36,7 +36,7 @@ from web_support import TOKEN
 _GROWTH = 10.0  # MB an hour that the node may grow: a queue or log that nobody empties grows faster
 _MORE_THREADS = 2  # that may be left at the end: a connection may just close
 _MORE_FILES = 5  # likewise, and each of rosmaster's three threads keeps a connection once it had something to report
-_LONGEST_END = 3.0  # s
+_LONGEST_END = 5.0  # s, of a node that may still load Python, on a busy machine
 
 
 class SoakError(Exception):

@@ -3,8 +3,8 @@
 """Waits for a message on each topic that a node publishes; prints what is wrong with each, as JSON.
 
 Arguments: the names of nodes. Values are finite but for those of scans, clouds and depth images without a hit;
-quaternions have length 1; frames are those of /tf or of the robot's links; stamps are not older than a second; an IMU
-at rest measures gravity.
+quaternions have length 1; frames are those of /tf or of the robot's links; stamps are not older than a second when they
+come; an IMU at rest measures gravity.
 """
 
 import json
@@ -45,7 +45,7 @@ def numbers(value) -> list[float]:
     return [each for each in value if isinstance(each, float)] if isinstance(value, list | tuple) else []
 
 
-def problems(message, frames: set[str], oldest: float) -> Iterator[str]:
+def problems(message, arrival: float, frames: set[str], oldest: float) -> Iterator[str]:
     for place, value in values(message):
         name = place.rpartition(".")[2]
         if name not in MAY_BE_INFINITE and not all(map(math.isfinite, numbers(value))):
@@ -59,8 +59,8 @@ def problems(message, frames: set[str], oldest: float) -> Iterator[str]:
         if name == "header" and not place.startswith("status"):
             if value.frame_id.lstrip("/") not in frames | UNUSED_FRAMES:
                 yield f"{place} has the frame {value.frame_id}, which is not in /tf"
-            if value.stamp and rospy.get_time() - value.stamp.to_sec() > oldest:
-                yield f"{place} has the time {value.stamp.to_sec()}, now is {rospy.get_time()}"
+            if value.stamp and arrival - value.stamp.to_sec() > oldest:
+                yield f"{place} has the time {value.stamp.to_sec()} and came at {arrival}"
     yield from problems_of_kind(message)
 
 
@@ -95,10 +95,14 @@ def main() -> None:
     published = {topic for topic in topics if not topic.endswith(EVENTS)}
     buffer = tf2_ros.Buffer()
     tf2_ros.TransformListener(buffer)
-    last: dict[str, object] = {}
+    last: dict[str, tuple[object, float]] = {}  # messages with the times when they came, s
+
+    def keep(message, topic: str) -> None:
+        last[topic] = message, rospy.get_time()
+
     for topic in published:
         kind, _, _ = rostopic.get_topic_class(topic)
-        rospy.Subscriber(topic, kind, lambda message, topic=topic: last.__setitem__(topic, message), queue_size=1)
+        rospy.Subscriber(topic, kind, keep, topic, queue_size=1)
     end = time.monotonic() + LONGEST_WAIT
     while published - last.keys() and time.monotonic() < end:
         time.sleep(0.1)
@@ -107,8 +111,8 @@ def main() -> None:
     links = ElementTree.fromstring(rospy.get_param("/robot_description", "<robot/>")).iterfind("link")
     frames = set(tree) | {each["parent"] for each in tree.values()} | {link.get("name", "") for link in links}
     found = {topic: ["has no message"] for topic in published - last.keys()}
-    for topic, message in sorted(last.items()):
-        if wrong := list(problems(message, frames, math.inf if topic == "/tf_static" else OLDEST)):
+    for topic, (message, arrival) in sorted(last.items()):
+        if wrong := list(problems(message, arrival, frames, math.inf if topic == "/tf_static" else OLDEST)):
             found[topic] = wrong[:5]
     print(json.dumps({"topics": sorted(published), "problems": found}), flush=True)
 
