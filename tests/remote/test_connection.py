@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """bubblesim.connect."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
+import zmq
 
 import bubblesim
 from remote_support import RemoteNode
-from ros_support import free_port
+from ros_support import DEADLINE, free_port
 
 
 def test_bubblesim_connect_has_typed_results(node: RemoteNode) -> None:
@@ -25,6 +29,31 @@ def test_bubblesim_connect_has_typed_results(node: RemoteNode) -> None:
             sim.getObject("/Tricyle")
     other = node.sim()
     other.wait(0.5)  # the connection has ended its stepping
+
+
+def test_a_connection_that_is_dropped_is_collected(node: RemoteNode) -> None:
+    code = f"""
+import gc, bubblesim
+simulator = bubblesim.connect({node.port})
+frames = simulator.frames()
+next(frames)
+del simulator, frames
+gc.collect()
+print('collected')
+"""
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=DEADLINE, check=True)
+    assert run.stdout == "collected\n"
+
+
+def test_calls_after_the_end_fail(node: RemoteNode) -> None:
+    simulator = bubblesim.connect(node.port)
+    frames = simulator.frames()
+    next(frames)
+    simulator.close()
+    with pytest.raises(zmq.ZMQError):
+        simulator.sim.getSimulationTime()
+    with pytest.raises(zmq.ZMQError):
+        next(frames)
 
 
 def test_bubblesim_connect_reports_that_no_server_answers() -> None:

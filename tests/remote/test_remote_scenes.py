@@ -129,7 +129,7 @@ def test_ros_nodes_see_the_topics_of_the_scene_that_is_loaded(roscore: RosCore, 
             assert not published() & {"/front_sonar", "/odom"}
             sim.startSimulation()
             wait_until(lambda: "/notifications" in published(), "BubbleRob's topics")
-            stamps = [roscore.run("rostopic", "echo", "-n", "1", "/clock") for _ in range(2)]
+            stamps = [roscore.echo("/clock") for _ in range(2)]
             assert stamps[0] != stamps[1]
             assert sim.loadScene("tricycle") == 1
         states = roscore.run("rosservice", "call", f"{NODE}/get_object_state", "object: '/Tricycle'")

@@ -15,6 +15,7 @@ import bubblesim
 from bubblesim.remote import token
 from node_support import write
 from remote_support import RemoteNode, refusal
+from ros_support import DEADLINE
 
 ENDLESS = {
     "script.py": "def sysCall_init(): pass\ndef sysCall_actuation():\n    while True: pass\n",
@@ -111,7 +112,7 @@ def test_a_stop_behind_a_call_of_the_same_client_waits_for_it(tmp_path: Path) ->
 def test_a_stop_without_the_token_interrupts_nothing(tmp_path: Path) -> None:
     secret = tmp_path / "token"
     with StuckNode(tmp_path, f"--remote-token={secret}") as node:
-        owner = bubblesim.connect(node.port, token=secret, timeout=20)
+        owner = bubblesim.connect(node.port, token=secret, timeout=DEADLINE)
         stuck_again(node, owner.sim.startSimulation)
         other = _request(node, "sim.stopSimulation")
         threading.Event().wait(1.5)

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Self
+from weakref import WeakSet
 
 import cbor2
 import numpy as np
@@ -46,9 +47,8 @@ class Connection:
         self._address = f"{host}:{port}"
         self._uuid = str(uuid.uuid4())
         self._timeout = timeout
-        self._context = zmq.Context()
-        self._socket = self._context.socket(zmq.REQ)
-        self._socket.setsockopt(zmq.LINGER, 0)
+        self._sockets: WeakSet[zmq.Socket[bytes]] = WeakSet()
+        self._socket = self._open_socket()
         self._socket.connect(f"tcp://{self._address}")
         try:
             self._send("zmqRemoteApi.info", ["sim"])
@@ -85,11 +85,12 @@ class Connection:
 
         :raises TimeoutError: if the node is gone.
         """
-        return read_frames(self._context, self._host, self._timeout, self.call)
+        return read_frames(self._open_socket, self._host, self._timeout, self.call)
 
     def close(self) -> None:
         """Disconnect, which ends the stepping mode of this connection."""
-        self._context.destroy(0)  # with the sockets of frames
+        for socket in self._sockets:  # with those of frames
+            socket.close()
 
     def __enter__(self) -> Self:
         """Return this connection."""
@@ -98,6 +99,14 @@ class Connection:
     def __exit__(self, *_error: object) -> None:
         """Disconnect."""
         self.close()
+
+    def _open_socket(self) -> zmq.Socket[bytes]:
+        """Return a socket of the program's context: that of a connection alone would, collected as garbage before its
+        sockets, wait for ever until they are closed."""
+        socket: zmq.Socket[bytes] = zmq.Context.instance().socket(zmq.REQ)
+        socket.setsockopt(zmq.LINGER, 0)
+        self._sockets.add(socket)
+        return socket
 
     def _send(self, function: str, arguments: list[Any]) -> None:
         self._socket.send(cbor2.dumps({"func": function, "args": arguments, "uuid": self._uuid, **self._secret}))

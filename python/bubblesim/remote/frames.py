@@ -35,11 +35,12 @@ class Frame:
     """rad or m."""
 
 
-def read_frames(context: zmq.Context[Any], host: str, timeout: float, call: Callable[..., Any]) -> Iterator[Frame]:
+def read_frames(
+    open_socket: Callable[[], zmq.Socket[bytes]], host: str, timeout: float, call: Callable[..., Any]
+) -> Iterator[Frame]:
     """Yield the last frame again and again, each one once; see Connection.frames."""
-    socket = context.socket(zmq.REQ)
+    socket = open_socket()
     try:
-        socket.setsockopt(zmq.LINGER, 0)
         port, secret = call("frames.open")
         socket.connect(f"tcp://{host}:{port}")
         known = None
