@@ -91,6 +91,24 @@ def test_anyway_goes_on(tmp_path: Path) -> None:
     assert (tmp_path / "clone" / ".ws").exists()
 
 
+def part_of_setup(folder: Path, function: str, environment: dict[str, str]) -> str:
+    """Return what one function of setup prints in a clone that has nothing else."""
+    code = (REPOSITORY / "scripts" / "setup").read_text().replace("\nmain ", f"\n{function} # ")
+    (folder / "scripts" / "environment").mkdir(parents=True)
+    (folder / "scripts" / "setup").write_text(code)
+    (folder / "scripts" / "environment" / "system.bash").write_text(SYSTEM.read_text())
+    command = ["bash", str(folder / "scripts" / "setup")]
+    environment = {"PATH": "/usr/bin:/bin", **environment}
+    return subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
+
+
+def test_python_is_compiled_also_where_python_writes_no_bytecode(tmp_path: Path) -> None:
+    (tmp_path / "python").mkdir()
+    (tmp_path / "python" / "module.py").write_text("")
+    part_of_setup(tmp_path, "compile_python", {"PYTHONDONTWRITEBYTECODE": "1"})
+    assert list((tmp_path / "python" / "__pycache__").glob("module.*.pyc"))
+
+
 def test_each_package_of_python_for_tests_has_a_version() -> None:
     """Linters in other versions find other things."""
     lists = SYSTEM.parent
@@ -108,13 +126,7 @@ def test_each_package_of_python_for_tests_has_a_version() -> None:
     ],
 )
 def test_an_error_names_the_proxies_without_their_passwords(tmp_path: Path, proxy: str, shown: str) -> None:
-    code = (REPOSITORY / "scripts" / "setup").read_text().replace("\nmain ", "\nproxies # ")
-    (tmp_path / "scripts" / "environment").mkdir(parents=True)
-    (tmp_path / "scripts" / "setup").write_text(code)
-    (tmp_path / "scripts" / "environment" / "system.bash").write_text(SYSTEM.read_text())
     configuration = tmp_path / "apt.conf"
     configuration.write_text(f'Acquire::http::Proxy "{proxy}";\n')
-    environment = {"PATH": "/usr/bin:/bin", "https_proxy": proxy, "APT_CONFIG": str(configuration)}
-    command = ["bash", str(tmp_path / "scripts" / "setup")]
-    run = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
-    assert run.stdout == f' Set are: https_proxy={shown} Acquire::http::Proxy "{shown}";\n'
+    printed = part_of_setup(tmp_path, "proxies", {"https_proxy": proxy, "APT_CONFIG": str(configuration)})
+    assert printed == f' Set are: https_proxy={shown} Acquire::http::Proxy "{shown}";\n'

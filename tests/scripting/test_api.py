@@ -59,7 +59,19 @@ class Sample:
         return handle, value, reference
 
 
-del MODULES["sample"]  # other tests check all modules
+@script_module("forward")
+class Forward:
+    """A function with a readable annotation, and one without."""
+
+    def number(self, value: float) -> float:
+        """Any number."""
+        return value
+
+    def unknown(self, value: "NotThere") -> None:  # type: ignore[name-defined]  # noqa: F821
+        """Nothing."""
+
+
+del MODULES["sample"], MODULES["forward"]  # other tests check all modules
 
 
 def refusal(function: Callable[[Any], object], value: object) -> str | None:
@@ -125,6 +137,18 @@ def test_a_call_that_does_not_fit_is_reported(arguments: tuple[object, ...], rep
 
 def test_arguments_may_be_named() -> None:
     assert Sample().text(count=3, value="ab") == "ababab"
+
+
+def test_annotations_of_a_function_are_read_at_its_first_use() -> None:
+    assert [function.name for function in functions(Forward)] == ["number", "unknown"]
+    assert Forward().number(1.0) == 1.0
+    with pytest.raises(NameError, match="NotThere"):
+        Forward().unknown(1)
+
+
+def test_checks_of_a_function_are_made_once() -> None:
+    assert Sample.number is Sample.number
+    assert inspect.isfunction(vars(Sample)["number"])
 
 
 MODULES = {

@@ -30,15 +30,55 @@ MODULES: dict[str, type] = {}  # by their names in scripts
 
 @dataclass(frozen=True)
 class ScriptFunction:
-    """A function of a module with its documentation."""
+    """A function of a module with its documentation, read when it is asked for."""
 
     name: str
-    signature: inspect.Signature  # without self
-    doc: str
-    group: type  # the class that defines the function; its group in the reference
-    for_remote_only: bool  # the other callers get an error
-    waits: bool = False  # it takes several steps
-    differs: str = ""  # how, from CoppeliaSim's function
+    function: Callable[..., Any]
+    group: type
+    """The class that defines the function; its group in the reference."""
+
+    @property
+    def signature(self) -> inspect.Signature:
+        """Return the signature without self."""
+        return signature_of(self.function)
+
+    @property
+    def doc(self) -> str:
+        """Return the docstring without its indentation."""
+        return inspect.getdoc(self.function) or ""
+
+    @property
+    def for_remote_only(self) -> bool:
+        """Return whether callers other than remote clients get an error."""
+        return hasattr(self.function, "for_remote_only")
+
+    @property
+    def waits(self) -> bool:
+        """Return whether it takes several steps."""
+        return hasattr(self.function, "waits")
+
+    @property
+    def differs(self) -> str:
+        """Return how it differs from CoppeliaSim's function."""
+        return difference(self.function)
+
+
+class _CheckedAtFirstUse:
+    """A function that is replaced by its checked one as soon as it is looked up.
+
+    To read the annotations of all functions takes a quarter of the time in which the node starts; a script uses few.
+    """
+
+    def __init__(self, module: type, module_name: str, name: str, function: Callable[..., Any]) -> None:
+        self.function = function
+        self._module = module
+        self._name = name
+        self._full_name = f"{module_name}.{name}"
+
+    def __get__(self, instance: object | None, owner: type) -> Callable[..., Any]:
+        call = checked(self._full_name, self.function)
+        setattr(self._module, self._name, call)
+        return cast(Callable[..., Any], call.__get__(instance, owner))
 
 
 def script_module(name: str) -> Callable[[Module], Module]:
@@ -46,7 +86,7 @@ def script_module(name: str) -> Callable[[Module], Module]:
 
     def register(module: Module) -> Module:
         for function_name, function in _public_methods(module):
-            setattr(module, function_name, checked(f"{name}.{function_name}", function))
+            setattr(module, function_name, _CheckedAtFirstUse(module, name, function_name, function))
         setattr(module, "__getattr__", _other_names(name, module))  # noqa: B010  # or mypy would take any name of it
         MODULES[name] = module
         return module
@@ -60,7 +100,7 @@ def variant_of_module(name: str) -> Callable[[Module], Module]:
     def complete(module: Module) -> Module:
         for function_name, function in _public_methods(module):
             if function_name in vars(module):
-                setattr(module, function_name, checked(f"{name}.{function_name}", function))
+                setattr(module, function_name, _CheckedAtFirstUse(module, name, function_name, function))
         return module
 
     return complete
@@ -84,9 +124,7 @@ def functions(module: type) -> list[ScriptFunction]:
     found = []
     for name, function in _public_methods(module):
         group = next(base for base in reversed(module.__mro__) if name in vars(base))
-        doc = inspect.getdoc(function) or ""
-        marks = hasattr(function, "for_remote_only"), hasattr(function, "waits")
-        found.append(ScriptFunction(name, signature_of(function), doc, group, *marks, difference(function)))
+        found.append(ScriptFunction(name, function, group))
     return found
 
 
@@ -116,5 +154,12 @@ def _other_names(name: str, module: type) -> Callable[[object, str], Any]:
 
 
 def _public_methods(module: type) -> list[tuple[str, Callable[..., Any]]]:
-    members = inspect.getmembers(module, inspect.isfunction)
-    return [(name, function) for name, function in members if not name.startswith("_")]
+    """Return the functions of a class and its bases by name, unchecked as long as they are not in use."""
+    members = {name: member for base in reversed(module.__mro__) for name, member in vars(base).items()}
+    found: list[tuple[str, Callable[..., Any]]] = []
+    for name in sorted(each for each in members if not each.startswith("_")):
+        member = members[name]
+        function = member.function if isinstance(member, _CheckedAtFirstUse) else member
+        if inspect.isfunction(function):
+            found.append((name, function))
+    return found

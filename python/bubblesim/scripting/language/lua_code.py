@@ -290,20 +290,18 @@ class LuaCode:
         caller.shared.log.add(log.SCRIPT_WARNING, caller.object_path, line)
 
     def _module(self, module: Any) -> Any:
+        names = {function.name: None for function in functions(type(module))}
         constants = {
             name: getattr(module, name)
             for name in dir(module)
-            if not name.startswith("_") and isinstance(getattr(module, name), int | float | str | dict)
+            if not name.startswith("_")
+            and name not in names
+            and isinstance(getattr(module, name), int | float | str | dict)
         }
         table = self._runtime.table()
         table[b"constants"] = self._values.to_lua(constants)
         table[b"functions"] = self._runtime.table_from(
-            {
-                function.name.encode(): self._values.callable_from_lua(
-                    getattr(module, function.name), self._turn_is_over
-                )
-                for function in functions(type(module))
-            }
+            {name.encode(): self._values.callable_from_lua(_late(module, name), self._turn_is_over) for name in names}
         )
         return table
 
@@ -330,6 +328,11 @@ class LuaCode:
     def _with_whole_paths(self, text: str) -> str:
         names = "|".join(map(re.escape, self._files))
         return re.sub(rf"(?<![\w/.+-])({names})(?=:\d)", lambda match: str(self._files[match[1]]), text)
+
+
+def _late(module: Any, name: str) -> Callable[..., Any]:
+    """Return a function of a module that is looked up when it is called: its checks are made at its first use."""
+    return lambda *arguments: getattr(module, name)(*arguments)
 
 
 def _exists(module: str, name: str) -> bool:

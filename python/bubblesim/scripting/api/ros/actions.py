@@ -154,16 +154,13 @@ class RosActions(RosContext):
     def _make(self, of_ros1: Any, of_ros2: Any, name: str, action_type: str, *callbacks: Any) -> Any:
         kind: Any = Ros2ActionParts if self._is_ros2 else ActionTopics
         endpoints = kind(self._bridge, name, action_type, self._warn_of_truncation)
-        made: list[Any] = []
 
         def delivering(callback: Any) -> Any:
-            return lambda *arguments: callback(
-                *(self._byte_arrays.received(made[0].handle, each) for each in arguments)
-            )
+            return lambda *arguments: callback(*(self._byte_arrays.received(made.handle, each) for each in arguments))
 
         with endpoints.closed_on_error():
-            made.append((of_ros2 if self._is_ros2 else of_ros1)(endpoints, *map(delivering, callbacks)))
-        return made[0]
+            made = (of_ros2 if self._is_ros2 else of_ros1)(endpoints, *map(delivering, callbacks))
+        return made
 
     def _action_client(self, handle: int) -> ActionClient | Ros2ActionClient:
         if handle not in self._action_clients:

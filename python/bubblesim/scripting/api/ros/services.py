@@ -65,13 +65,11 @@ class RosServices(RosContext):
                 self._warn_of_truncation(f"'{name}'", _core.messages.truncations(response_type, response, version))
 
         answer = self._caller.answering_callback(callback, check)
-        made: list[int] = []
 
         def deliver(request: dict[str, Any]) -> Any:
-            return answer(self._byte_arrays.received(made[0], request))
+            return answer(self._byte_arrays.received(server, request))
 
         server = int(self._bridge.advertise_service(name, service_type, deliver, self._time_form))
-        made.append(server)
         self._caller.at_end["server", server] = lambda: self._bridge.shutdown_service_server(server)
         return server
 

@@ -100,14 +100,12 @@ class RosTopics(RosContext):
     ) -> int:
         """Subscribe; ``for_script``: the script gets the messages as they are."""
         message_type = with_slashes(message_type)
-        made: list[int] = []
 
         def deliver(message: dict[str, Any]) -> None:
-            guarded(self._byte_arrays.received(made[0], message))
+            guarded(self._byte_arrays.received(subscriber, message))
 
         callback = deliver if for_script and self._caller.in_lua else guarded
         subscriber = int(self._bridge.subscribe(topic, message_type, callback, qos, self._time_form))
-        made.append(subscriber)
         self._caller.at_end["subscriber", subscriber] = lambda: self._bridge.shutdown_subscriber(subscriber)
         return subscriber
 
