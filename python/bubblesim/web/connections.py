@@ -2,7 +2,8 @@
 """The connections to the server: how many there may be, and what one may take without the token.
 
 aiohttp waits without end for a request, and accepts all connections. Here a connection without the token, which anyone
-can open, ends soon, and there are few of them: the oldest makes room for the next. Pages have places of their own.
+can open, ends soon, and there are few of them: the oldest makes room for the next, one without a request first. Pages
+have places of their own.
 """
 
 from __future__ import annotations
@@ -27,9 +28,11 @@ class Connections:
         self._pages: dict[asyncio.BaseTransport, Connection] = {}
 
     def add(self, connection: Connection) -> None:
-        """Count a connection, and close the oldest one if there are too many."""
+        """Count a connection. If there are too many, close the oldest without a request, or else the oldest."""
         if len(self._others) >= _MOST_OTHERS:
-            self._others.pop(next(iter(self._others))).transport.abort()
+            oldest = next(iter(self._others.values()))
+            without_request = (other for other in self._others.values() if not other.has_request)
+            self._others.pop(next(without_request, oldest).transport).transport.abort()
         self._others[connection.transport] = connection
 
     def remove(self, connection: Connection) -> None:
@@ -63,7 +66,8 @@ class Connection(asyncio.Protocol):
         """
         self._connections = connections
         self._protocol = protocol
-        self._trusted = self._has_request = False
+        self.has_request = False
+        self._trusted = False
         self._bytes = 0
         self._end: asyncio.TimerHandle | None = None
 
@@ -76,8 +80,8 @@ class Connection(asyncio.Protocol):
 
     def note_request(self) -> None:
         """Wait for the token, but not for ever."""
-        if not self._has_request:
-            self._has_request = True
+        if not self.has_request:
+            self.has_request = True
             self._end_after(_LONGEST)
 
     def trust(self) -> None:
