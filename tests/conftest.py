@@ -44,6 +44,7 @@ START_WITH = [
     "test_benchmarks.py",
     "test_docs.py",
     "services/test_stuck_scripts.py",
+    "services/test_standard_services.py",
     "tests/web/",
     "slam/test_pioneer_slam.py",
     "testing/test_plugin.py",

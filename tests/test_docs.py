@@ -10,7 +10,6 @@ SCRIPTS_RUN, those of ROS nodes next to the simulator.
 import contextlib
 import re
 import signal
-import socket
 import subprocess
 import sys
 import time
@@ -20,7 +19,17 @@ from pathlib import Path
 import pytest
 
 from node_support import run_script, run_sim, without_slowness, write
-from ros_support import DEADLINE, REPOSITORY, RosCore, alone_on_port, start, stop, stop_launch, wait_until
+from ros_support import (
+    DEADLINE,
+    REPOSITORY,
+    RosCore,
+    alone_on_port,
+    is_served,
+    start,
+    stop,
+    stop_launch,
+    wait_until,
+)
 
 PAGES = sorted([*REPOSITORY.glob("*.md"), *REPOSITORY.glob("wheel/*.md"), *(REPOSITORY / "docs").rglob("*.md")])
 BLOCK = re.compile(r"^```(bash|lua|python)\n(.*?)^```", re.MULTILINE | re.DOTALL)
@@ -71,9 +80,7 @@ def is_there(expected: str, roscore: RosCore) -> bool:
     if ":" not in expected:
         state = roscore.state()
         return expected in state["publishers"] or expected in state["services"]
-    host, _, port = expected.partition(":")
-    with socket.socket() as probe:
-        return probe.connect_ex((host, int(port))) == 0
+    return is_served(f"http://{expected}/")
 
 
 @pytest.mark.parametrize(("simulator", "page"), [(page, page) for page in WITH_BASH], indirect=["simulator"], ids=name)

@@ -4,8 +4,8 @@
 In a console block, the lines below a command, up to the next one, are its output. Other blocks of output follow a
 comment, <!-- output of: COMMAND -->. `...` stands for any text in a line, a line `...` for any lines. Files are made
 from the code block after <!-- file: NAME -->, or from the text below the first line of that comment. A command that
-must run at the same time: <!-- beside: COMMAND -->; <!-- in a terminal --> lets the command read keys. /home/me is the
-reader's folder.
+must run at the same time: <!-- beside: COMMAND -->; the shown command is repeated until that one is ready. <!-- in a
+terminal --> lets the command read keys. /home/me is the reader's folder.
 """
 
 import os
@@ -138,8 +138,11 @@ def test_output_is_what_the_page_shows(shown: Shown, tmp_path: Path) -> None:
     env = ros_environment(free_port(), tmp_path / "roslog") if core is None else core.env
     env = env | {"BUBBLESIM": str(REPOSITORY), "PYTHON": sys.executable}
     beside = [start(shlex.split(command), env, cwd=folder, stdout=subprocess.DEVNULL) for command in shown.beside]
+    end = time.monotonic() + DEADLINE
     try:
         printed = as_shown(run(shown, folder, env), folder, env)
+        while beside and not pattern(shown.output).fullmatch(printed) and time.monotonic() < end:
+            printed = as_shown(run(shown, folder, env), folder, env)
     finally:
         for process in beside:
             stop(process)

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from node_support import NAME, Node, endless_fall, processes_with, write
-from ros_support import RosCore, built, free_port, ros_environment, wait_until
+from ros_support import DEADLINE, RosCore, built, free_port, ros_environment, wait_until
 
 REPORT = "def sysCall_init(): print('init')\ndef sysCall_cleanup(): print('cleanup')\n"
 
@@ -44,7 +44,7 @@ def test_a_terminal_that_is_closed_ends_it_with_its_children(roscore: RosCore, t
     os.close(its)
     wait_until(lambda: NAME in roscore.nodes() and processes_with("sleep 36059.5") != [], "the script")
     os.close(ours)
-    node.wait(timeout=20)
+    node.wait(timeout=DEADLINE)
     wait_until(lambda: processes_with("sleep 36059.5") == [], "the end of what the script has started")
     assert (tmp_path / "cleanup").exists()
     assert NAME not in roscore.nodes()
@@ -56,9 +56,9 @@ def test_a_terminal_that_is_closed_does_not_end_it_under_nohup(roscore: RosCore,
         node = subprocess.Popen(["nohup", built("sim"), "ball"], env=roscore.env, stdout=output, stderr=output)
     wait_until(lambda: NAME in roscore.nodes(), "the node")
     node.send_signal(signal.SIGHUP)
-    assert roscore.run("rostopic", "echo", "-n", "3", "/simulationTime").count("data:") == 3
+    assert roscore.echo("/simulationTime", count=3).count("data:") == 3
     node.send_signal(signal.SIGINT)
-    assert node.wait(timeout=20) == 0
+    assert node.wait(timeout=DEADLINE) == 0
 
 
 @pytest.mark.parametrize("options", [["--paused"], ["--speed", "0.0001"]], ids=["paused", "slow"])
@@ -75,7 +75,7 @@ def test_services_pause_and_resume_it(roscore: RosCore, tmp_path: Path) -> None:
         wait_until(lambda: f"{NAME}/unpause" in roscore.state()["services"], "the service")
         assert "init" not in node.output
         roscore.run("rosservice", "call", f"{NAME}/unpause")
-        assert node.process.wait(timeout=20) == 0
+        assert node.process.wait(timeout=DEADLINE) == 0
         assert node.output.endswith("init\ncleanup\n")
 
 
@@ -84,7 +84,7 @@ def test_without_a_master_it_reports_that_and_runs_on(tmp_path: Path) -> None:
     script = write(tmp_path / "script.py", REPORT)
     options = ["--until", 0.5, "--child-script", f"/Ball={script}"]
     with Node(ros_environment(port, tmp_path), tmp_path / "log", "ball", *options) as node:
-        assert node.process.wait(timeout=20) == 0
+        assert node.process.wait(timeout=DEADLINE) == 0
         assert "plugin 'ROSInterface': load failed (failed initialization)" in node.output
         assert f"http://localhost:{port}" in node.output
         assert "roscore" in node.output
@@ -97,7 +97,7 @@ def test_topics_appear_when_a_master_comes_late(tmp_path: Path) -> None:
         node.wait_for_output("load failed")
         with RosCore(tmp_path / "roslog", port) as core:
             wait_until(lambda: NAME in core.state()["publishers"].get("/simulationTime", []), "the topic")
-            assert "data:" in core.run("rostopic", "echo", "-n", "1", "/simulationTime")
+            assert "data:" in core.echo("/simulationTime")
             assert node.end() == 0
 
 

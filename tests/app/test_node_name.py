@@ -58,7 +58,7 @@ def test_a_second_node_of_the_name_is_refused_in_one_line_and_the_first_goes_on(
         f"error: a node {NAME} is already running on the ROS master {roscore.env['ROS_MASTER_URI']}: shut it down "
         "with --replace, or run beside it, with a master of its own: bubblesim run SCENE --isolated"
     ]
-    assert roscore.run("rostopic", "echo", "-n", "3", "/simulationTime").count("data:") == 3
+    assert roscore.echo("/simulationTime", count=3).count("data:") == 3
     assert first.process.poll() is None
 
 
@@ -88,10 +88,10 @@ def test_a_node_that_passes_the_time_on_is_no_second_simulator(roscore: RosCore,
 
 def test_replace_ends_the_first(roscore: RosCore, first: Node, tmp_path: Path) -> None:
     with Node(roscore.env, tmp_path / "second", "ball", "--replace") as second:
-        assert first.process.wait(timeout=20) == 0
+        assert first.process.wait(timeout=DEADLINE) == 0
         second.wait_until_listed(roscore)
         assert "info: shutdown requested: /sim_ros_interface: another node takes this name" in first.output
-        assert roscore.run("rostopic", "echo", "-n", "3", "/simulationTime").count("data:") == 3
+        assert roscore.echo("/simulationTime", count=3).count("data:") == 3
 
 
 def test_a_node_that_was_killed_leaves_its_name_free(roscore: RosCore, first: Node, tmp_path: Path) -> None:
@@ -106,7 +106,7 @@ def test_a_node_that_hangs_is_not_ended_by_the_master_for_another(roscore: RosCo
         assert run_sim("ball", env=roscore.env).returncode == 2
     finally:
         first.process.send_signal(signal.SIGCONT)
-    assert roscore.run("rostopic", "echo", "-n", "3", "/simulationTime").count("data:") == 3
+    assert roscore.echo("/simulationTime", count=3).count("data:") == 3
 
 
 def test_a_node_that_finds_its_name_taken_later_runs_on_without_ros_until_it_is_free(tmp_path: Path) -> None:

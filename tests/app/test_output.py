@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from node_support import without_slowness, write
-from ros_support import built
+from ros_support import DEADLINE, built
 
 RUN = ["ball", "--no-ros", "--speed", "max", "--until", "0.2"]
 FULL, CLOSED, NO_READER = ">/dev/full", ">&-", "to a pipe without a reader"
@@ -110,5 +110,5 @@ def on_a_terminal(command: list[str]) -> str:
         except OSError:  # the other end is closed
             break
     os.close(ours)
-    assert process.wait(timeout=20) == 0
+    assert process.wait(timeout=DEADLINE) == 0
     return text.decode()

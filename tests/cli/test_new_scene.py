@@ -62,9 +62,9 @@ def test_the_new_scene_talks_to_ros(tmp_path: Path, roscore: RosCore) -> None:
     bubblesim("new-scene", "mine", "--folder", tmp_path)
     with Node(roscore.env, tmp_path / "log", tmp_path / "mine.sdf", "--strict"):
         wait_until(lambda: {"/sonar", "/tf"} <= set(roscore.state()["publishers"]), "the topics of the scene")
-        assert "range_max: 8.0" in roscore.run("rostopic", "echo", "-n", "1", "/scan")
+        assert "range_max: 8.0" in roscore.echo("/scan")
         assert {"/left", "/right"} <= set(roscore.state()["subscribers"])
-        assert "data: " in roscore.run("rostopic", "echo", "-n", "1", "/sonar")
+        assert "data: " in roscore.echo("/sonar")
 
 
 @pytest.mark.parametrize("name", ["", "1st", "my scene", "../up", "a.b"])

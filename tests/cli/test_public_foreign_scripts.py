@@ -114,11 +114,15 @@ def test_robots_follow_the_line_of_their_scene(file: Path, robot: str, reach: fl
 
 @pytest.mark.parametrize("file", find("quadcopter ronda teste.ttt"), ids=named)
 def test_a_quadcopter_flies_after_its_target(file: Path, tmp_path: Path) -> None:
-    simulation = state_after(file, tmp_path, 10)
+    """Its script moves the target 25 mm in 25 ms of the computer's clock: the busier the machine, the faster."""
+    seconds = 10.0
+    simulation = state_after(file, tmp_path, seconds)
     (target,) = (each for each in simulation.objects if each.path == "/Quadcopter/target")
     copter = simulation.object("/Quadcopter")
     start = bubblesim.Simulation(str(file)).object("/Quadcopter").position
-    assert math.dist(copter.position, target.position) < 0.2
+    speed = math.dist(target.position, start) / seconds
+    behind = math.dist(copter.position, target.position) / speed
+    assert behind < 1.0  # s
     assert math.dist(copter.position, start) > 1
 
 

@@ -108,7 +108,7 @@ def test_a_jackal_drives_through_a_world_of_barn(
         wait_until(lambda: "/ekf_localization" in subscribers(core, "/imu/data"), "the filter", 3 * DEADLINE)
         time.sleep(1.0)  # until they are connected
         call("/gazebo/unpause_physics")
-        core.run("rostopic", "echo", "-n", "1", "/odometry/filtered")
+        core.echo("/odometry/filtered")
         wait_until(lambda: put_to_start(call), "the start", 3 * DEADLINE)
         with launched(core, env, tmp_path / "log2", str(navigation), ready="/move_base/status"):
             wait_until(lambda: math.dist(state(), START[:2]) > 0.1, "it to move", 3 * DEADLINE)

@@ -25,11 +25,6 @@ def environment(core: RosCore, folder: Path, **more: str) -> dict[str, str]:
     return with_packages(core.env, ROBOTS, folder, **SPEED, **more)
 
 
-def topic(core: RosCore, name: str) -> str:
-    """Return one message as text."""
-    return core.run("rostopic", "echo", "-n", "1", name)
-
-
 def check_topics(env: dict[str, str], *nodes: str, expected: list[str]) -> None:
     """Check the values on all topics of nodes, among which are the expected ones."""
     checked = result_of(env, "check_topics.py", *nodes)
@@ -192,7 +187,7 @@ def simulated(call: ServiceCaller) -> float:
 
 
 def rrbot_error(core: RosCore) -> float:
-    text = topic(core, "/rrbot/joint1_position_controller/state")
+    text = core.echo("/rrbot/joint1_position_controller/state")
     (line,) = (line for line in text.splitlines() if line.startswith("error:"))
     (goal,) = (line for line in text.splitlines() if line.startswith("set_point:"))
     return float(line.split()[1]) if goal.split()[1] == "0.8" else 1.0

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from bubblesim.program.groups import signal_group
-from ros_support import REPOSITORY, RosCore, start, stop, wait_until
+from ros_support import DEADLINE, REPOSITORY, RosCore, start, stop, wait_until
 
 SCRIPTS = REPOSITORY / "scripts"
 TOPICS = ("leftMotorSpeed", "/rightMotorSpeed", "/sensorTrigger", "/simTime")  # with and without leading slash
@@ -102,7 +102,7 @@ def test_bubblerob_ends_when_the_simulation_is_silent(run: Run, wheels: tuple[Ec
     client = run("/usr/bin/python3", SCRIPTS / "rosBubbleRob", *TOPICS)
     wait_until(lambda: bool(wheels[0].values()), "the robot to drive")
     stop(simulation)
-    assert client.wait(timeout=20) == 0
+    assert client.wait(timeout=DEADLINE) == 0
 
 
 def test_bubblerob_ends_quietly_when_it_is_terminated(run: Run, wheels: tuple[Echo, Echo]) -> None:
@@ -112,7 +112,7 @@ def test_bubblerob_ends_quietly_when_it_is_terminated(run: Run, wheels: tuple[Ec
     )
     wait_until(lambda: bool(wheels[0].values()), "the robot to drive")
     client.send_signal(signal.SIGTERM)
-    output, _ = client.communicate(timeout=20)
+    output, _ = client.communicate(timeout=DEADLINE)
     assert client.returncode == 0
     assert output == ""
 
@@ -122,7 +122,7 @@ def test_bubblerob_stops_its_wheels_when_it_ends(run: Run, wheels: tuple[Echo, E
     client = run("/usr/bin/python3", SCRIPTS / "rosBubbleRob", *TOPICS)
     wait_until(lambda: all(wheel.values() for wheel in wheels), "both wheels to drive")
     client.send_signal(signal.SIGINT)
-    client.wait(timeout=20)
+    client.wait(timeout=DEADLINE)
     for wheel in wheels:
         wait_until(lambda wheel=wheel: wheel.last() == 0.0, "a wheel to stop")
 
@@ -133,7 +133,7 @@ def test_tricycle_avoid_stops_the_tricycle_when_it_ends(run: Run, tmp_path: Path
     client = run("/usr/bin/python3", SCRIPTS / "tricycle_avoid.py")
     wait_until(lambda: bool(speed.values()), "the tricycle to drive")
     client.send_signal(signal.SIGTERM)
-    assert client.wait(timeout=20) == 0
+    assert client.wait(timeout=DEADLINE) == 0
     wait_until(lambda: speed.last() == 0.0, "the tricycle to stop")
 
 

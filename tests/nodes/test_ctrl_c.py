@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from ros_support import RosCore, built, free_port, ros_environment, start, stop, wait_until
+from ros_support import DEADLINE, RosCore, built, free_port, ros_environment, start, stop, wait_until
 
 NODES = {
     "cmd_vel_to_tricycle.py": [],
@@ -59,7 +59,7 @@ def running(program: str, arguments: list[str], env: dict[str, str], folder: Pat
 def ends_quietly(process: "subprocess.Popen[str]", log: Path) -> None:
     process.send_signal(signal.SIGINT)
     try:
-        code = process.wait(timeout=20)
+        code = process.wait(timeout=DEADLINE)
     except subprocess.TimeoutExpired:
         pytest.fail(f"it goes on; it printed:\n{log.read_text()}")
     assert code in (0, 1, 130, -signal.SIGINT)

@@ -13,7 +13,7 @@ import pytest
 from node_support import Background
 from ros2_peer import Domain, Ros2Peer
 from ros_peer import Peer
-from ros_support import RosCore, start, wait_until
+from ros_support import DEADLINE, RosCore, start, wait_until
 from service_caller import ServiceCaller
 
 PROGRAM = "bubblesim"
@@ -155,7 +155,7 @@ def test_what_has_no_counterpart_is_reported_once(bridge: Callable[..., Bridge],
 
 def test_names_that_are_none_are_refused(bridge: Callable[..., Bridge]) -> None:
     program = bridge("scan")
-    assert program.process.wait(timeout=20) == 2
+    assert program.process.wait(timeout=DEADLINE) == 2
     assert "error: expected names of topics and services such as /scan, found 'scan'" in program.output
 
 
@@ -163,4 +163,4 @@ def test_ctrl_c_ends_it(bridge: Callable[..., Bridge]) -> None:
     program = bridge()
     program.wait_for_output("load succeeded: node /ros_bridge in domain ")
     program.process.send_signal(2)
-    assert program.process.wait(timeout=20) == 0
+    assert program.process.wait(timeout=DEADLINE) == 0

@@ -80,7 +80,7 @@ def test_demo_states_how_to_drive_a_robot_without_a_controller(tmp_path: Path) -
     process = demo(tmp_path, free_port(), "pioneer", "--seconds", "2")
     output, _ = process.communicate(timeout=120)
     assert process.returncode == 1, output
-    assert "nothing moved: no program sent commands to the robot of 'pioneer' in 2 s" in output
+    assert "nothing moved in 2 s; if no program sends commands to the robot of 'pioneer', drive it yourself" in output
     assert "rosrun bubblesim sim pioneer --web" in output
 
 

@@ -24,7 +24,7 @@ def test_the_panel_shows_what_the_camera_publishes(roscore: RosCore, tmp_path: P
     with Node(roscore.env, tmp_path / "log", "image_publisher", "--child-script", f"/Table={look}") as node:
         wait_until(lambda: NAME in roscore.nodes(), "the node")
         node.wait_for_output("shown")
-        message = roscore.run("rostopic", "echo", "-n", "1", "--noarr", "/image")
+        message = roscore.echo("/image", "--noarr")
         assert node.end() == 0
     for line in ("height: 192", "width: 256", 'encoding: "rgb8"', "step: 768", 'frame_id: "Camera_optical"'):
         assert line in message

@@ -33,12 +33,6 @@ def node(roscore: RosCore, tmp_path: Path) -> Iterator[StartNode]:
     assert processes_with(f"localhost:{roscore.port} ") == []
 
 
-def echo(core: RosCore, topic: str) -> str:
-    """Return the next message on a topic."""
-    wait_until(lambda: topic in core.state()["publishers"], f"{topic} to be advertised")
-    return core.run("rostopic", "echo", "-n", "1", topic)
-
-
 def number(text: str, name: str = "data") -> float:
     found = re.search(rf"\b{name}: (\S+)", text)
     assert found is not None, text
@@ -47,14 +41,14 @@ def number(text: str, name: str = "data") -> float:
 
 def pose(core: RosCore) -> tuple[float, float, float]:
     """Return x, y and heading of the last transform on /tf."""
-    text = echo(core, "/tf")
+    text = core.echo("/tf")
     translation, rotation = text.split("rotation:")
     x, y = (number(translation.split("translation:")[1], axis) for axis in "xy")
     return x, y, 2 * math.atan2(number(rotation, "z"), number(rotation, "w"))
 
 
 def joint_position(core: RosCore, name: str) -> float:
-    states = yaml.safe_load(echo(core, "/joint_states").partition("---")[0])
+    states = yaml.safe_load(core.echo("/joint_states").partition("---")[0])
     return float(states["position"][states["name"].index(name)])
 
 
@@ -97,14 +91,14 @@ def test_tricycle_turns_as_it_is_steered(roscore: RosCore, node: StartNode) -> N
         wait_until(lambda: math.dist(pose(roscore)[:2], (x, y)) > 0.02, "the tricycle to move")
     turned = math.remainder(pose(roscore)[2] - heading, math.tau)
     assert turned < 0  # clockwise, to the right
-    assert math.isinf(number(echo(roscore, "/front_sonar"))) or number(echo(roscore, "/front_sonar")) > 0
+    assert math.isinf(number(roscore.echo("/front_sonar"))) or number(roscore.echo("/front_sonar")) > 0
 
 
 def test_bubblerob_obeys_a_human_although_its_client_runs(roscore: RosCore, node: StartNode) -> None:
     running = node("bubblerob")
     wait_until(lambda: any(name.startswith("/rosBubbleRob") for name in roscore.nodes()), "the client")
     topic = next(name for name in roscore.state()["subscribers"] if name.startswith("/leftMotorSpeed"))
-    assert "messages: " in echo(roscore, "/notifications")
+    assert "messages: " in roscore.echo("/notifications")
     assert processes_with(f"rosBubbleRob {topic[1:]}", started_by=running)
     human = start(["rostopic", "pub", topic, "std_msgs/Float32", "data: 1.0"], roscore.env)
     try:
@@ -133,7 +127,7 @@ def test_several_bubblerobs_drive_at_once_each_by_its_own_client(roscore: RosCor
     assert len({nodes[0] for nodes in drivers().values()}) == 3
 
     def places() -> dict[str, tuple[float, float]]:
-        text = roscore.run("rostopic", "echo", "-n", "12", "/tf")
+        text = roscore.echo("/tf", count=12)
         found = {}
         for transform in text.split("child_frame_id: ")[1:]:
             frame = transform.split('"')[1]
@@ -165,14 +159,14 @@ def speed_of_right_wheel(core: RosCore) -> float:
 
 def test_bubblerob_notifies(roscore: RosCore, node: StartNode) -> None:
     node("bubblerob")
-    assert echo(roscore, "/notifications") == 'messages: "ok"\n---\n'
+    assert roscore.echo("/notifications") == 'messages: "ok"\n---\n'
 
 
 def test_ball_publishes_time_and_place(roscore: RosCore, node: StartNode) -> None:
     node("ball")
-    first = number(echo(roscore, "/simulationTime"))
-    assert number(echo(roscore, "/simulationTime")) > first
-    transform = echo(roscore, "/tf")
+    first = number(roscore.echo("/simulationTime"))
+    assert number(roscore.echo("/simulationTime")) > first
+    transform = roscore.echo("/tf")
     assert 'frame_id: "world"' in transform
     assert 'child_frame_id: "Ball"' in transform
 
@@ -180,11 +174,11 @@ def test_ball_publishes_time_and_place(roscore: RosCore, node: StartNode) -> Non
 def test_stamps_are_simulation_time_under_use_sim_time(roscore: RosCore, node: StartNode) -> None:
     roscore.set_param("/use_sim_time", True)
     node("ball")
-    stamp = number(echo(roscore, "/tf"), "secs")
+    stamp = number(roscore.echo("/tf"), "secs")
     assert stamp < 1000
-    assert number(echo(roscore, "/clock"), "secs") >= stamp
+    assert number(roscore.echo("/clock"), "secs") >= stamp
 
 
 def test_stamps_are_wall_time_otherwise(roscore: RosCore, node: StartNode) -> None:
     node("ball")
-    assert number(echo(roscore, "/tf"), "secs") > 1e9
+    assert number(roscore.echo("/tf"), "secs") > 1e9

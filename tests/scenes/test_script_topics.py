@@ -120,7 +120,7 @@ def test_simros2_names_work(script: Script, roscore: RosCore) -> None:
             simROS2.shutdownSubscription(self.listener)
         """)
     wait_until(lambda: "/in" in roscore.state()["subscribers"], "the subscriber")
-    text = roscore.run("rostopic", "echo", "-n", "1", "/out")
+    text = roscore.echo("/out")
     assert "secs: 5" in text
     assert text.split()[text.split().index("nsecs:") + 1] == "6"
     with roscore.publishing("/in", "std_msgs/Time", "{data: {secs: 7, nsecs: 8}}"):
@@ -164,7 +164,7 @@ def test_a_float_that_is_not_quite_whole_goes_into_an_integer_field(
     script: Script, roscore: RosCore, name: str
 ) -> None:
     node = script(CLOCKS[name], name)
-    text = roscore.run("rostopic", "echo", "-n", "1", "/own_clock")
+    text = roscore.echo("/own_clock")
     assert text.split()[1:] == ["secs:", "1", "nsecs:", "150000000", "---"]
     assert "warning" not in without_slowness(node.output)
     assert "disabled" not in node.output
@@ -196,7 +196,7 @@ def test_a_float_that_loses_its_fraction_is_one_warning_for_each_field(
 ) -> None:
     node = script(TRUNCATED[name], name)
     for _ in range(2):  # with and without a subscriber
-        assert "data: [1, -1]" in roscore.run("rostopic", "echo", "-n", "1", "/t")
+        assert "data: [1, -1]" in roscore.echo("/t")
     warnings = [line for line in node.output.splitlines() if "truncated" in line]
     begin = "warning: child script of /Ball: '/t': float"
     assert warnings == [
@@ -275,12 +275,12 @@ def test_every_kind_of_value_arrives(script: Script, roscore: RosCore) -> None:
     node = script("def sysCall_init():\n" + calls)
     node.wait_for_output("published")
     for i, (_, _, shown) in enumerate(VALUES):
-        assert roscore.run("rostopic", "echo", "-n", "1", f"/v{i}") == f"data: {shown}\n---\n"
-    moment = roscore.run("rostopic", "echo", "-n", "1", "/vt").split()
+        assert roscore.echo(f"/v{i}") == f"data: {shown}\n---\n"
+    moment = roscore.echo("/vt").split()
     assert (moment[2], moment[4]) == ("2", "500000000")
-    span = roscore.run("rostopic", "echo", "-n", "1", "/vd").split()
+    span = roscore.echo("/vd").split()
     assert int(span[2]) + int(span[4]) * 1e-9 == -2.5
-    assert "data: [1.0, 2.5]" in roscore.run("rostopic", "echo", "-n", "1", "/va")
+    assert "data: [1.0, 2.5]" in roscore.echo("/va")
 
 
 def test_what_a_script_publishes_at_its_end_arrives(script: Script, roscore: RosCore, tmp_path: Path) -> None:

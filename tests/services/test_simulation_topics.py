@@ -128,7 +128,7 @@ def test_a_script_may_use_a_topic_as_another_type(run: Run, roscore: RosCore) ->
         def sysCall_sensing(): simROS.publish(self.time, {'data': 'late'})
     """)
     wait_until_ready(roscore)  # before this, rostopic would find the type of the node's own topic
-    assert roscore.run("rostopic", "echo", "-n", "1", TIME).startswith('data: "late"')
+    assert roscore.echo(TIME).startswith('data: "late"')
     remote.press("stop")
     wait_until(lambda: "Float32" in roscore.run("rostopic", "type", TIME), "the node's own topic")
     assert "error" not in node.output

@@ -98,7 +98,7 @@ def test_the_state_follows_the_requests(node: Node, call: Call) -> None:
     assert code(call("/set_simulation_state", state={"state": PAUSED})) == 103
     assert code(call("/set_simulation_state", state={"state": 9})) == UNSUPPORTED
     assert code(call("/set_simulation_state", state={"state": QUITTING})) == OK
-    assert node.process.wait(timeout=20) == 0
+    assert node.process.wait(timeout=DEADLINE) == 0
 
 
 def test_steps_run_while_it_is_paused(call: Call) -> None:

@@ -11,7 +11,7 @@ import pytest
 from node_support import NAME, Node, run_script, without_slowness, write
 from process_support import open_files
 from remote_control import Run, wait_until_sent
-from ros_support import RosCore, free_port, wait_until
+from ros_support import DEADLINE, RosCore, free_port, wait_until
 
 MASTER_CONNECTIONS = 2  # roscpp may keep these open between calls
 RESTARTS = 5
@@ -51,7 +51,7 @@ def test_restarts_set_up_sockets_and_topics_again_and_leak_no_descriptors(run: R
         received = count(node, "received"), len(remote.received("/of_the_script"))
         remote.press("start")
         wait_until(lambda starts=starts: count(node, "init") == starts, "the script to start")
-        socket.create_connection(("127.0.0.1", port), timeout=20).close()
+        socket.create_connection(("127.0.0.1", port), timeout=DEADLINE).close()
         wait_until(lambda received=received: count(node, "received") > received[0], "the script's subscriber")
         wait_until(
             lambda received=received: len(remote.received("/of_the_script")) > received[1], "the script's publisher"
@@ -93,11 +93,11 @@ def test_a_server_in_a_thread_is_back_on_its_port_after_each_start(run: Run, ros
         remote.press("start")
         wait_until(lambda starts=starts: count(node, "listens") == starts, "the server")
         for _ in range(2):  # in sequence
-            with socket.create_connection(("127.0.0.1", port), timeout=20) as client:
+            with socket.create_connection(("127.0.0.1", port), timeout=DEADLINE) as client:
                 assert float(client.recv(100)) >= 0
                 client.send(b"x")
                 assert client.recv(1) == b""
-        with socket.create_connection(("127.0.0.1", port), timeout=20) as client:  # the server waits for it
+        with socket.create_connection(("127.0.0.1", port), timeout=DEADLINE) as client:  # the server waits for it
             assert float(client.recv(100)) >= 0
             before = count(node, "pass")
             wait_until(lambda before=before: count(node, "pass") >= before + 3, "steps meanwhile")
@@ -177,7 +177,7 @@ def test_a_stop_ends_a_run_that_has_an_end(roscore: RosCore, tmp_path: Path) -> 
     file = write(tmp_path / "script.py", STOPPING)
     options = ["--until", 1e6, "--child-script", f"/Ball={file}"]
     with Node(roscore.env, tmp_path / "log", "ball", *options) as node:
-        assert node.process.wait(timeout=20) == 0
+        assert node.process.wait(timeout=DEADLINE) == 0
         assert without_slowness(node.output).endswith("init\ncleanup\n")
 
 
@@ -191,4 +191,4 @@ def test_a_script_ends_a_node_without_ros(tmp_path: Path, call: str) -> None:
 def test_a_script_ends_the_node_in_ros(run: Run) -> None:
     node, remote = run("def sysCall_init(): pass\ndef sysCall_actuation(): sim.quitSimulator()\n", "--paused")
     remote.press("start")
-    assert node.process.wait(timeout=20) == 0
+    assert node.process.wait(timeout=DEADLINE) == 0

@@ -91,7 +91,7 @@ def test_five_minutes_map_the_whole_room(explore: Run) -> None:
 @pytest.mark.long
 def test_a_simulation_that_starts_anew_is_mapped_anew(explore: Run, roscore: RosCore) -> None:
     def start_anew() -> None:
-        roscore.run("rostopic", "echo", "-n", "1", "/go_to/path")  # it is driving
+        roscore.echo("/go_to/path")  # it is driving
         for topic in ("/stopSimulation", "/startSimulation"):
             roscore.run("rostopic", "pub", "-1", topic, "std_msgs/Bool", "true")
 

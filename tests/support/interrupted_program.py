@@ -6,6 +6,8 @@ import signal
 import subprocess
 import time
 
+from ros_support import DEADLINE
+
 
 def errors_of_interrupted(code: str) -> str:
     """Run a program that prints a line before a long call, interrupt the call, and return its stderr."""
@@ -17,7 +19,7 @@ def errors_of_interrupted(code: str) -> str:
         process.stdout.readline()
         time.sleep(0.2)
         process.send_signal(signal.SIGINT)
-        return process.communicate(timeout=20)[1]
+        return process.communicate(timeout=DEADLINE)[1]
     finally:
         process.kill()
         process.wait()

@@ -16,7 +16,7 @@ import aiohttp
 import cbor2
 
 from process_support import open_files
-from ros_support import free_port, start, stop, stopped_on_failure, wait_until
+from ros_support import DEADLINE, free_port, start, stop, stopped_on_failure, wait_until
 from web_support import TIMEOUT, TOKEN
 
 
@@ -69,7 +69,7 @@ class Server:
 
     def get(self, path: str, **headers: str) -> tuple[int, dict[str, str]]:
         """Return status and headers of the answer to a request."""
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=20)
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=DEADLINE)
         connection.putrequest("GET", path, skip_host=True)
         own = {"Host": f"127.0.0.1:{self.port}"}
         for name, value in (own | {name.replace("_", "-"): value for name, value in headers.items()}).items():

@@ -10,9 +10,9 @@ import zmq
 from coppeliasim_zmqremoteapi_client import RemoteAPIClient
 
 from node_support import Node
-from ros_support import free_port, ros_environment, stopped_on_failure
+from ros_support import DEADLINE, free_port, ros_environment, stopped_on_failure
 
-TIMEOUT = 20_000  # ms for a reply
+TIMEOUT = int(1000 * DEADLINE)  # ms for a reply
 
 
 class RemoteNode(Node):

@@ -14,9 +14,11 @@ import subprocess
 import time
 import xmlrpc.client
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 from typing import Any
+from urllib.parse import urlsplit
 
 import pytest
 
@@ -24,7 +26,7 @@ from bubblesim.program.groups import signal_group
 
 SUPPORT = Path(__file__).resolve().parent
 REPOSITORY = SUPPORT.parents[1]
-DEADLINE = 20.0 * float(os.environ.get("BUBBLESIM_TEST_DEADLINE_FACTOR", "1"))
+DEADLINE = 40.0 * float(os.environ.get("BUBBLESIM_TEST_DEADLINE_FACTOR", "1"))
 """Seconds after which an expected event counts as missing; long, because machines may be busy, and longer for builds
 with sanitizers."""
 
@@ -81,11 +83,18 @@ def alone_on_port(port: int) -> Iterator[None]:
 
 def wait_until(condition: Callable[[], bool], what: str | Callable[[], str], timeout: float = DEADLINE) -> None:
     """Return as soon as `condition` holds; fail the test with `what`, or what it returns then, at the timeout."""
-    end = time.monotonic() + timeout
+    begin = time.monotonic()
     while not condition():
-        if time.monotonic() > end:
+        waited = time.monotonic() - begin
+        if waited > timeout:
             pytest.fail(f"waited {timeout:g} s in vain for {what if isinstance(what, str) else what()}")
-        time.sleep(0.02)
+        time.sleep(until_next_look(waited))
+
+
+def until_next_look(waited: float) -> float:
+    """Return how long to sleep before looking again, in seconds: a look at the master or a page takes their time from
+    what is waited for."""
+    return min(max(0.02, 0.05 * waited), 0.2)
 
 
 @contextlib.contextmanager
@@ -137,6 +146,28 @@ def stop_launch(process: "subprocess.Popen[str]") -> None:
 OF_ONE_TYPE = ("/clock", "/diagnostics", "/rosout", "/rosout_agg", "/tf", "/tf_static")
 
 
+_UNREGISTER = {
+    "publishers": "unregisterPublisher",
+    "subscribers": "unregisterSubscriber",
+    "services": "unregisterService",
+}
+
+
+def nodes_of(state: dict[str, dict[str, list[str]]]) -> set[str]:
+    """Return the nodes in a master's registrations."""
+    return {node for book in state.values() for nodes in book.values() for node in nodes}
+
+
+def is_served(address: str) -> bool:
+    """Return whether a process listens at an address, http://HOST:PORT/, such as that of a node."""
+    place = urlsplit(address)
+    try:
+        socket.create_connection((place.hostname or "", place.port or 0), timeout=1.0).close()
+    except OSError:
+        return False
+    return True
+
+
 class RosCore:
     """A running roscore. `env` is the environment of its clients; as a context manager it ends with the block."""
 
@@ -150,7 +181,7 @@ class RosCore:
             # The last thing that it does.
             wait_until(lambda: "/rosout" in self.state()["subscribers"], "roscore to start")
         self._master_pid = int(self._ask_master("getPid", "/test"))
-        self._first_state = self._all_state()
+        self._first_state = self._registered()
 
     def __enter__(self) -> "RosCore":
         return self
@@ -171,26 +202,44 @@ class RosCore:
             return {kind: {} for kind in kinds}
         return {kind: dict(book) for kind, book in zip(kinds, books, strict=True)}
 
+    @property
+    def _master(self) -> Any:
+        return xmlrpc.client.ServerProxy(self.env["ROS_MASTER_URI"])
+
     def _ask_master(self, method: str, *arguments: Any) -> Any:
-        master: Any = xmlrpc.client.ServerProxy(self.env["ROS_MASTER_URI"])
-        code, message, value = getattr(master, method)(*arguments)
+        code, message, value = getattr(self._master, method)(*arguments)
         assert code == 1, message
         return value
 
+    def forget_ended_nodes(self) -> None:
+        """Unregister the nodes that are no more, as `rosnode cleanup` does. Others may be about to unregister."""
+        state = self.state()
+        for node in nodes_of(state):
+            code, _, address = self._master.lookupNode("/test", node)
+            if code != 1 or is_served(address):
+                continue
+            for kind, book in state.items():
+                for name in [name for name, nodes in book.items() if node in nodes]:
+                    place = self._master.lookupService("/test", name)[2] if kind == "services" else address
+                    getattr(self._master, _UNREGISTER[kind])(node, name, place)
+
     def is_as_new(self) -> bool:
-        """Return whether nothing but the state at the start is left."""
+        """Return whether no node, service or parameter of tests is left."""
         try:
-            return self.process.poll() is None and self._all_state() == self._first_state
+            return self.process.poll() is None and self._registered() == self._first_state
         except (OSError, xmlrpc.client.Error):
             return False
 
-    def _all_state(self) -> tuple[object, object, object]:
-        # Until a topic is advertised again, tools such as rostopic take the type that it had last.
-        types = sorted(pair for pair in self._ask_master("getTopicTypes", "/test") if pair[0] not in OF_ONE_TYPE)
-        return self.state(), sorted(self._ask_master("getParamNames", "/test")), types
+    def _registered(self) -> tuple[object, object]:
+        return self.state(), sorted(self._ask_master("getParamNames", "/test"))
+
+    def has_types_of_tests(self) -> bool:
+        """Return whether it knows types of topics that are no more: until they are advertised again, tools such as
+        rostopic take those."""
+        return any(topic not in OF_ONE_TYPE for topic, _ in self._ask_master("getTopicTypes", "/test"))
 
     def nodes(self) -> set[str]:
-        return {node for book in self.state().values() for nodes in book.values() for node in nodes}
+        return nodes_of(self.state())
 
     def pid_of(self, node: str) -> int:
         """Return the process of a node."""
@@ -205,6 +254,12 @@ class RosCore:
         return subprocess.run(
             command, env=self.env, text=True, stdout=subprocess.PIPE, timeout=2 * DEADLINE, check=True
         ).stdout
+
+    def echo(self, topic: str, *options: str, field: str = "", count: int = 1) -> str:
+        """Return what `rostopic echo` shows of the next messages. It starts when the topic is published: before that,
+        rostopic takes the type that the topic had last, and waits in vain for messages of it."""
+        wait_until(lambda: topic in self.state()["publishers"], f"{topic} to be advertised")
+        return self.run("rostopic", "echo", "-n", str(count), *options, topic + field)
 
     @contextlib.contextmanager
     def publishing(self, topic: str, message_type: str, *message: str) -> Iterator[None]:
@@ -243,23 +298,43 @@ class RestartableCore:
         self.core = RosCore(self._directory, self.core.port)
 
 
-_kept: list[RosCore] = []  # that of the last test: starting one takes longer than most tests
+@dataclass
+class _Kept:
+    """The roscore of the last test: starting one takes longer than most tests."""
+
+    core: RosCore
+    file: Path
+    """The test's: those in one file give a topic one type."""
+
+
+_kept: list[_Kept] = []
+
+
+def _kept_for(file: Path) -> RosCore | None:
+    if not _kept:
+        return None
+    last = _kept.pop()
+    if last.file == file or not last.core.has_types_of_tests():
+        return last.core
+    stop(last.core.process)
+    return None
 
 
 @pytest.fixture
-def roscore(tmp_path: Path) -> Iterator[RosCore]:
-    """Yield a roscore that is as new: without nodes, parameters and services of tests."""
+def roscore(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[RosCore]:
+    """Yield a roscore without nodes, parameters and services of tests, and without topics of other files' tests."""
     log = tmp_path / "roslog"
-    core = _kept.pop() if _kept else RosCore(log)
+    core = _kept_for(request.path) or RosCore(log)
     core.env = ros_environment(core.port, log)
     yield core
     core.resume()
+    core.forget_ended_nodes()
     if core.is_as_new():
-        _kept.append(core)
+        _kept.append(_Kept(core, request.path))
     else:
         stop(core.process)
 
 
 def pytest_sessionfinish() -> None:
     while _kept:
-        stop(_kept.pop().process)
+        stop(_kept.pop().core.process)

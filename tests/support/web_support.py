@@ -11,7 +11,7 @@ from typing import Any, Self
 import pytest
 from playwright.sync_api import Browser, ConsoleMessage, Page, Playwright, sync_playwright
 
-from ros_support import DEADLINE, built, start, stop, wait_until
+from ros_support import DEADLINE, built, start, stop, until_next_look, wait_until
 
 # Without --disable-gpu-compositing the whole page is drawn by the software GL, at twice the time.
 _FLAGS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing", "--no-sandbox"]
@@ -128,10 +128,11 @@ class Window:
     def wait(self, condition: str, argument: Any = None) -> None:
         """Wait until an expression is true."""
         # Not wait_for_function: it evaluates strings in the page, which the page's own policy forbids.
-        end = time.monotonic() + TIMEOUT / 1000
+        begin = time.monotonic()
         while not self.page.evaluate(f"x => Boolean({condition})", argument):
-            assert time.monotonic() < end, f"{condition}; errors of the page: {self.errors}"
-            self.page.wait_for_timeout(50)
+            waited = time.monotonic() - begin
+            assert waited < TIMEOUT / 1000, f"{condition}; errors of the page: {self.errors}"
+            self.page.wait_for_timeout(1000 * until_next_look(waited))
 
     def difference_from_camera(self) -> float:
         """Return the share of pixels that differ from the simulator's picture of the first camera."""

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from bubblesim.teleop.joystick import AXIS, BUTTON, EVENT, INITIAL
-from ros_support import DEADLINE, REPOSITORY, RosCore, start, stop, wait_until
+from ros_support import DEADLINE, REPOSITORY, RosCore, start, stop, stopped_on_failure, wait_until
 from velocities import Velocities
 
 NODE = [sys.executable, str(REPOSITORY / "scripts" / "joy_teleop.py")]
@@ -25,15 +25,18 @@ class Stick:
 
     def __init__(self, core: RosCore, folder: Path, *arguments: str) -> None:
         self._pipe = folder / "js0"
+        self._turned = False
         os.mkfifo(self._pipe)
         self.received = Velocities(core, folder / "received")
         self._node = start([*NODE, f"_dev:={self._pipe}", *arguments], core.env)
-        self.plug_in()
-        wait_until(lambda: self._has_received(), "a subscriber", timeout=3 * DEADLINE)
+        with stopped_on_failure(self._node):
+            self.plug_in()
+            wait_until(self._has_received, "a subscriber", timeout=3 * DEADLINE)
 
     def _has_received(self) -> bool:
-        for value in (32767, 0):  # messages before the subscriber connects are lost
-            self.send(event(BUTTON, 4, 1), event(AXIS, 3, value))
+        # Messages before the subscriber connects are lost, and the node sends what is other than before.
+        self._turned = not self._turned
+        self.send(event(BUTTON, 4, 1), event(AXIS, 3, 32767 if self._turned else 0))
         return bool(self.received.all())
 
     def plug_in(self) -> None:

@@ -255,7 +255,7 @@ def test_a_position_controller_holds_what_its_topic_has(arm: Arm) -> None:
     arm.switch(start=["shoulder_position_controller"])
     with arm.publish("/shoulder_position_controller/command", "std_msgs/Float64", "data: 0.3"):
         wait_until(lambda: abs(arm.position("shoulder") - 0.3) < 0.02, "the position")
-    state = arm.core.run("rostopic", "echo", "-n", "1", "/shoulder_position_controller/state")
+    state = arm.core.echo("/shoulder_position_controller/state")
     assert "set_point: 0.3\n" in state
     assert "p: 400.0\n" in state
 
@@ -263,7 +263,7 @@ def test_a_position_controller_holds_what_its_topic_has(arm: Arm) -> None:
 def test_joint_states_come_at_their_rate(arm: Arm) -> None:
     arm.load("joint_state_controller")
     arm.switch(start=["joint_state_controller"])
-    text = arm.core.run("rostopic", "echo", "-n", "20", "/joint_states/header/stamp")
+    text = arm.core.echo("/joint_states", field="/header/stamp", count=20)
     seconds = [int(part) for part in text.replace("nsecs:", "").replace("secs:", "").split() if part.isdigit()]
     stamps = [whole + rest * 1e-9 for whole, rest in zip(seconds[::2], seconds[1::2], strict=True)]
     assert [b - a for a, b in itertools.pairwise(stamps)] == pytest.approx([0.01] * 19, abs=1e-6)
@@ -279,10 +279,10 @@ def test_sensor_controllers_publish_gravity_and_the_weight_of_the_forearm(arm: A
     arm.load("trajectory_controller", "imu_controller", "wrench_controller")
     assert arm.switch(start=["trajectory_controller", "imu_controller", "wrench_controller"])
     wait_until(lambda: is_still(arm), "the arm to stand still")
-    reading = arm.core.run("rostopic", "echo", "-n", "1", "/forearm_imu")
+    reading = arm.core.echo("/forearm_imu")
     assert math.hypot(*numbers_of(reading, "linear_acceleration")) == pytest.approx(9.8, abs=0.05)
     assert 'frame_id: "forearm"' in reading
-    load = arm.core.run("rostopic", "echo", "-n", "1", "/elbow_wrench")
+    load = arm.core.echo("/elbow_wrench")
     assert math.hypot(*numbers_of(load, "force")) == pytest.approx(0.5 * 9.8, rel=0.02)
     claimed = {each["name"]: each["claimed_resources"] for each in arm("list_controllers")["controller"]}
     assert claimed["imu_controller"] == []
@@ -360,5 +360,5 @@ def test_joints_in_a_ros2_control_element_are_controlled_too(node: Arm) -> None:
     assert node.call(f"{manager}/switch_controller", start_controllers=["slider", "states"], strictness=STRICT)["ok"]
     with node.publish("/cart/slider/command", "std_msgs/Float64", "data: 0.7"):
         wait_until(lambda: abs(position() - 0.7) < 1e-3, "the position")
-    assert "name: \n  - slide\n  - swing\n" in node.core.run("rostopic", "echo", "-n", "1", "/cart/joint_states")
+    assert "name: \n  - slide\n  - swing\n" in node.core.echo("/cart/joint_states")
     assert node.call("/gazebo/delete_model", model_name="cart")["success"]
