@@ -167,6 +167,7 @@ export class Editor {
   }
 
   #complete(context) {
+    if (context.tokenBefore(["Comment", "comment"])) return null; // as the grammars of Python and Lua name it
     const named = context.matchBefore(/\bsim\w*\.\w*/);
     if (named && named.text.split(".")[0] in this.#api.functions) {
       const [module] = named.text.split(".");

@@ -20,8 +20,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import IO, Any
 
-import zmq
-
 from bubblesim.remote.connection import Connection
 from bubblesim.running.places import node_program
 from bubblesim.running.processes import RunError
@@ -126,8 +124,7 @@ class _ShellConnection(Connection):
     def _renew(self) -> None:
         """Go on with a new socket: the old one waits for a reply. The client, with its stepping mode, stays."""
         old = self._socket
-        self._socket = self._context.socket(zmq.REQ)
-        self._socket.setsockopt(zmq.LINGER, 0)
+        self._socket = self._open_socket()
         self._socket.connect(f"tcp://{self._address}")
         with contextlib.suppress(KeyboardInterrupt):
             super().call("sim.getSimulationState")  # before the old socket is closed: the server knows the new one

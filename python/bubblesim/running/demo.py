@@ -67,8 +67,8 @@ def run(scene: str, seconds: float, picture: Path) -> None:
     print(f"{recording.summary()}\npicture            {picture}", flush=True)
     if recording.distance() < _MIN_DISTANCE and not stop.requested:
         raise RunError(
-            f"nothing moved: no program sent commands to the robot of '{Path(scene).stem}' in {seconds:g} s; "
-            f"drive it yourself: rosrun bubblesim sim {scene} --web, and the keys W, A, S, D in the window"
+            f"nothing moved in {seconds:g} s; if no program sends commands to the robot of '{Path(scene).stem}', drive "
+            f"it yourself: rosrun bubblesim sim {scene} --web, and the keys W, A, S, D in the window"
         )
 
 
