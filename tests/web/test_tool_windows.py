@@ -94,12 +94,16 @@ def test_a_warning_of_the_scene_leads_to_its_object(tmp_path: Path) -> None:
         assert window.errors == []
 
 
-def test_driving_publishes_velocities_and_stops_with_the_page(roscore: RosCore, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("kind", "before"), [("Twist", "TwistStamped"), ("TwistStamped", "Twist")])
+def test_driving_publishes_what_a_robot_takes_and_stops_with_the_page(
+    roscore: RosCore, tmp_path: Path, kind: str, before: str
+) -> None:
+    roscore.run("rostopic", "pub", "-1", "/drive_here", f"geometry_msgs/{before}", "{}")  # the master keeps its type
     with ToolsPage(tmp_path, "ball", env=roscore.env) as window, Peer(roscore, tmp_path / "peer.txt") as peer:
 
         def velocities() -> list[list[float]]:
-            received = peer.received("/drive_here", "geometry_msgs/Twist")
-            return [[message["linear"]["x"], message["angular"]["z"]] for message in received]
+            twists = [each.get("twist", each) for each in peer.received("/drive_here", f"geometry_msgs/{kind}")]
+            return [[twist["linear"]["x"], twist["angular"]["z"]] for twist in twists]
 
         wait_until(lambda: not velocities() and "/drive_here" in roscore.state()["subscribers"], "the peer")
         window.show("driving")

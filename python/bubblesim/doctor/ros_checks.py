@@ -3,20 +3,19 @@
 
 from __future__ import annotations
 
-import http.client
 import os
 import socket
 import urllib.parse
-import xmlrpc.client
 from collections.abc import Iterator
 from typing import Any
 
 from bubblesim.doctor.finding import Finding, ok, problem, warning
 from bubblesim.program.addresses import master_uri
+from bubblesim.program.ros_calls import RosCallError, call
 from bubblesim.program.simulators import simulators
 
 _CALLER = "/bubblesim_doctor"
-_TIMEOUT = 5.0  # s, for a master and a node, also on a busy machine
+_TIMEOUT = 5.0  # s, also on a busy machine
 _MAX_NODES = 50
 
 
@@ -54,10 +53,9 @@ def check_master() -> Iterator[Finding]:
             f"no ROS master answers at {uri}", "start roscore in another terminal, or use bubblesim run ... --roscore"
         )
         return
-    master = _proxy(uri)
     try:
-        _call(master.getPid)
-    except (OSError, xmlrpc.client.Error, http.client.HTTPException, ValueError):
+        _ask(uri, "getPid")
+    except RosCallError:
         yield problem(
             f"the program that listens at {uri} is not a ROS master",
             f"ss -ltnp 'sport = :{port}' shows the program; end it, or use another port: "
@@ -65,12 +63,12 @@ def check_master() -> Iterator[Finding]:
         )
         return
     yield ok(f"a ROS master answers at {uri}")
-    yield from _check_clock(master)
-    yield from _check_nodes(master)
+    yield from _check_clock(uri)
+    yield from _check_nodes(uri)
 
 
-def _check_clock(master: Any) -> Iterator[Finding]:
-    state = _call(master.getSystemState)
+def _check_clock(master: str) -> Iterator[Finding]:
+    state = _ask(master, "getSystemState")
     publishers = dict(state[0])
     running = [node for node in simulators(state) if _responds(master, node)]
     if len(running) > 1:
@@ -78,7 +76,7 @@ def _check_clock(master: Any) -> Iterator[Finding]:
             f"nodes receive the times of {len(running)} simulators on /clock: {', '.join(running)}",
             f"rosnode kill {running[-1]}, and run it with a master of its own: bubblesim run SCENE --isolated",
         )
-    if not _call(master.hasParam, "/use_sim_time") or not _call(master.getParam, "/use_sim_time"):
+    if not _ask(master, "hasParam", "/use_sim_time") or not _ask(master, "getParam", "/use_sim_time"):
         return
     if "/clock" in publishers:
         yield ok("nodes use the time from /clock")
@@ -89,38 +87,24 @@ def _check_clock(master: Any) -> Iterator[Finding]:
         )
 
 
-def _check_nodes(master: Any) -> Iterator[Finding]:
-    state = _call(master.getSystemState)
+def _check_nodes(master: str) -> Iterator[Finding]:
+    state = _ask(master, "getSystemState")
     nodes = sorted({node for entries in state for _, names in entries for node in names})[:_MAX_NODES]
     missing = [node for node in nodes if not _responds(master, node)]
     if missing:
         yield warning(f"nodes registered at the master do not respond: {', '.join(missing)}", "rosnode cleanup")
 
 
-def _responds(master: Any, node: str) -> bool:
+def _responds(master: str, node: str) -> bool:
     try:
-        _call(_proxy(_call(master.lookupNode, node)).getPid)
-    except (OSError, xmlrpc.client.Error, http.client.HTTPException, ValueError):
+        _ask(_ask(master, "lookupNode", node), "getPid")
+    except RosCallError:
         return False
     return True
 
 
-def _call(method: Any, *arguments: object) -> Any:
-    code, message, value = method(_CALLER, *arguments)
-    if code != 1:
-        raise ValueError(message)
-    return value
-
-
-def _proxy(uri: str) -> Any:
-    return xmlrpc.client.ServerProxy(uri, transport=_TimeoutTransport())
-
-
-class _TimeoutTransport(xmlrpc.client.Transport):
-    def make_connection(self, host: Any) -> http.client.HTTPConnection:
-        connection = super().make_connection(host)
-        connection.timeout = _TIMEOUT
-        return connection
+def _ask(uri: str, function: str, *arguments: object) -> Any:
+    return call(uri, _CALLER, function, *arguments)
 
 
 def _resolves(name: str) -> bool:

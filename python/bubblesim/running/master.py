@@ -6,12 +6,12 @@ from __future__ import annotations
 import contextlib
 import sys
 import urllib.parse
-import xmlrpc.client
 from collections.abc import Iterator
 
 import rosgraph
 import rosgraph.network
 
+from bubblesim.program.ros_calls import RosCallError, call
 from bubblesim.running.processes import Programs, RunError
 from bubblesim.running.stop import Stop, wait_for
 
@@ -20,12 +20,11 @@ _SIMULATOR_NODE = "/sim_ros_interface"
 
 
 def simulator_runs() -> bool:
-    """Return whether the simulator's node is alive; the master may list nodes that were killed."""
+    """Return whether the simulator's node is alive, or stopped; the master may list nodes that were killed."""
     try:
-        uri = rosgraph.Master(_CALLER).lookupNode(_SIMULATOR_NODE)
-        xmlrpc.client.ServerProxy(uri).getPid(_CALLER)
-    except (OSError, rosgraph.MasterError):
-        return False
+        call(call(rosgraph.get_master_uri(), _CALLER, "lookupNode", _SIMULATOR_NODE), _CALLER, "getPid")
+    except RosCallError as error:
+        return isinstance(error.__cause__, TimeoutError)
     return True
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import socket
 import time
-import xmlrpc.client
 from dataclasses import dataclass
 from typing import Any
 
+from bubblesim.program.ros_calls import FailedRosCallError, RosCallError, call
 from bubblesim.running.processes import Programs, RunError
 
 _CALLER = "/bubblesim_test"
@@ -28,8 +28,9 @@ class Master:
 
     def find_service(self, name: str) -> tuple[str, int] | None:
         """Return host and port of a service; None if it is not advertised."""
-        code, _, uri = self._call("lookupService", name)
-        if code != 1:
+        try:
+            uri: str = self._call("lookupService", name)
+        except FailedRosCallError:
             return None
         host, _, port = uri.removeprefix("rosrpc://").rpartition(":")
         return host, int(port)
@@ -39,14 +40,15 @@ class Master:
         self._call("setParam", name, value)
 
     def _call(self, method: str, *arguments: Any) -> Any:
-        return getattr(xmlrpc.client.ServerProxy(self.uri), method)(_CALLER, *arguments)
+        return call(self.uri, _CALLER, method, *arguments)
 
     def answers(self) -> bool:
         """Return whether the master responds."""
         try:
-            return bool(self._call("getPid")[0] == 1)
-        except (OSError, xmlrpc.client.Error):
+            self._call("getPid")
+        except RosCallError:
             return False
+        return True
 
 
 def start_master(programs: Programs) -> Master:

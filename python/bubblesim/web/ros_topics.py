@@ -4,13 +4,17 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import functools
 import threading
 import time
 from collections import deque
+from collections.abc import Mapping
 from typing import Any
 
 from bubblesim.controllers.base_velocity import STANDING, BaseVelocity
+from bubblesim.program.addresses import master_uri
+from bubblesim.program.ros_calls import RosCallError, call
 from bubblesim.services.simulation_topics import CONTROLS
 from bubblesim.web.threads import in_thread
 
@@ -58,14 +62,8 @@ async def topics(_page: Any) -> list[list[str]]:
     """Return names and types of all published topics, and of those that nodes listen to for velocities."""
 
     def ask() -> list[list[str]]:
-        import rosgraph
-
-        rospy = node()
-        known: dict[str, str] = dict(rospy.get_published_topics())
-        master = rosgraph.Master("/bubblesim_window")
-        types = dict(master.getTopicTypes())
-        for name, _ in master.getSystemState()[1]:
-            known.setdefault(name, types.get(name, "*"))
+        known: dict[str, str] = dict(node().get_published_topics())
+        known |= _types_of({topic: nodes for topic, nodes in _listeners().items() if topic not in known})
         return sorted([name, kind] for name, kind in known.items() if kind != "*")
 
     return await in_thread(ask)
@@ -75,16 +73,31 @@ async def subscribed(_page: Any) -> list[list[str]]:
     """Return names and types of the topics on which other nodes listen to commands."""
 
     def ask() -> list[list[str]]:
-        import rosgraph
-
-        rospy = node()
-        master = rosgraph.Master("/bubblesim_window")
-        types = dict(master.getTopicTypes())
-        own = rospy.get_name()
-        names = (name for name, nodes in master.getSystemState()[1] if set(nodes) - {own} and name not in _COMMON)
-        return sorted([name, types.get(name, "*")] for name in names)
+        listeners = {topic: nodes for topic, nodes in _listeners().items() if topic not in _COMMON}
+        return sorted([name, kind] for name, kind in _types_of(listeners).items())
 
     return await in_thread(ask)
+
+
+def _listeners() -> dict[str, set[str]]:
+    """Return the other nodes that listen to each topic."""
+    own = node().get_name()
+    subscribers = call(master_uri(), own, "getSystemState")[1]
+    return {topic: others for topic, nodes in subscribers if (others := set(nodes) - {own})}
+
+
+def _types_of(listeners: Mapping[str, set[str]]) -> dict[str, str]:
+    """Return the types that listeners expect of their topics, by topic; "*" where they take any.
+
+    The nodes are asked: the master keeps the type that a topic had last, also that of a node that has ended.
+    """
+    own = node().get_name()
+    types: dict[str, str] = dict.fromkeys(listeners, "*")
+    for name in set().union(*listeners.values()):
+        with contextlib.suppress(RosCallError):  # it has ended
+            subscribed = call(call(master_uri(), own, "lookupNode", name), own, "getSubscriptions")
+            types |= {topic: kind for topic, kind in subscribed if types.get(topic) == "*"}
+    return types
 
 
 async def fields(_page: Any, topic: str) -> list[str]:
@@ -158,12 +171,10 @@ class Driver:
 
     def __init__(self, topic: str) -> None:
         """Advertise the topic, with the type that its listeners have, else geometry_msgs/Twist."""
-        import rosgraph
         from geometry_msgs.msg import Twist, TwistStamped
 
         rospy = node()
-        types = dict(rosgraph.Master("/bubblesim_window").getTopicTypes())
-        kind = types.get(topic, "geometry_msgs/Twist")
+        kind = _types_of({topic: _listeners().get(topic, set())})[topic]
         if kind not in (*_ROS_TYPES, "*"):
             raise ValueError(f"{topic} has the type {kind}; velocities are geometry_msgs/Twist or TwistStamped")
         self.topic = topic

@@ -4,25 +4,15 @@
 from __future__ import annotations
 
 import math
-import xmlrpc.client
 from collections.abc import Mapping
 from typing import Any
 
 from bubblesim.program.addresses import master_uri
-
-_TIMEOUT = 5.0  # s for the answer of the master
-_SUCCESS = 1
+from bubblesim.program.ros_calls import FailedRosCallError, RosCallError, call
 
 
 class ControllerError(ValueError):
     """What is wrong with the parameters of a controller."""
-
-
-class _Transport(xmlrpc.client.Transport):
-    def make_connection(self, host: Any) -> Any:
-        connection = super().make_connection(host)
-        connection.timeout = _TIMEOUT
-        return connection
 
 
 def read_parameter(name: str) -> Any:
@@ -30,14 +20,12 @@ def read_parameter(name: str) -> Any:
 
     :raises ControllerError: if the parameter server does not answer.
     """
-    uri = master_uri()
     try:
-        with xmlrpc.client.ServerProxy(uri, transport=_Transport()) as master:
-            answer: Any = master.getParam("/gazebo_ros_control", name)
-    except (OSError, xmlrpc.client.Error) as error:
-        raise ControllerError(f"the parameter server at {uri} does not answer: {error}") from None
-    code, _, value = answer
-    return value if code == _SUCCESS else None
+        return call(master_uri(), "/gazebo_ros_control", "getParam", name)
+    except FailedRosCallError:
+        return None
+    except RosCallError as error:
+        raise ControllerError(f"no parameter server: {error}") from None
 
 
 class ControllerParameters:
