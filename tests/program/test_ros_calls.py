@@ -24,7 +24,7 @@ def test_a_call_returns_the_value(roscore: RosCore) -> None:
     assert call(uri, CALLER, "getUri").rstrip("/").endswith(f":{roscore.port}")
 
 
-def test_a_call_that_failed_is_told_from_one_without_an_answer(roscore: RosCore) -> None:
+def test_a_failed_call_differs_from_one_without_an_answer(roscore: RosCore) -> None:
     with pytest.raises(FailedRosCallError, match=r"getParam failed: .*/missing"):
         call(roscore.env["ROS_MASTER_URI"], CALLER, "getParam", "/missing")
     with pytest.raises(RosCallError, match=r"does not answer getParam: .*refused") as error:

@@ -18,8 +18,9 @@ FILES = sorted(
 needs_files = pytest.mark.skipif(not FILES, reason="no public files of CoppeliaSim are beside the project")
 
 
-def named(file: Path) -> str:
-    return f"{file.parent.name}/{file.name}"
+def named(file: object) -> str:
+    """Return the name of a test's parameter, which is no file if there are none."""
+    return f"{file.parent.name}/{file.name}" if isinstance(file, Path) else ""
 
 
 def cases(short: int, files: list[Path] = FILES) -> list[object]:

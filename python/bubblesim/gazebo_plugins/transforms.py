@@ -25,6 +25,7 @@ class Transforms:
         self._bridge = bridge
         self._publisher: int | None = None
         self._waiting: list[Any] = []
+        self._needed: bool | None = None  # in this step, once it is asked
         self._fixed: dict[str, Any] = {}  # by child frame
         self._fixed_publisher: int | None = None
         self._fixed_is_new = False
@@ -33,7 +34,9 @@ class Transforms:
         """Add the pose (x, y, z, qx, qy, qz, qw) of the frame ``child`` in the frame of the header."""
         if self._publisher is None:
             self._publisher = int(self._bridge.advertise("/tf", "tf2_msgs/TFMessage", _QUEUE_SIZE))
-        if is_needed(self._bridge, self._publisher):
+        if self._needed is None:  # of a step all or none: a subscriber may come between two of them
+            self._needed = is_needed(self._bridge, self._publisher)
+        if self._needed:
             self._waiting.append(Transform(header, child, pose))
 
     def fix(self, header: Any, child: str, pose: Sequence[float]) -> None:
@@ -54,6 +57,7 @@ class Transforms:
                 self._fixed_publisher = int(self._bridge.advertise("/tf_static", "tf2_msgs/TFMessage", qos))
             # All of them: the topic keeps its last message only.
             self._bridge.publish(self._fixed_publisher, transforms(list(self._fixed.values())))
+        self._needed = None
         if self._waiting:
             self._bridge.publish(self._publisher, transforms(self._waiting))
             self._waiting = []

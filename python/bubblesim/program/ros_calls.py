@@ -15,7 +15,7 @@ _SUCCESS = 1
 
 
 class RosCallError(RuntimeError):
-    """A master or a node that does not answer as one; the cause says why."""
+    """A master or a node that does not answer as one; the cause is the reason."""
 
 
 class FailedRosCallError(RosCallError):
