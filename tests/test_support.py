@@ -2,12 +2,15 @@
 """The helpers of the tests, where a mistake would show up as a failure of another test."""
 
 import contextlib
+import shutil
 import signal
+import subprocess
+import sys
 import threading
 from pathlib import Path
 
 from node_support import NAME, Node, endless_fall, run_sim
-from ros_support import RosCore
+from ros_support import REPOSITORY, RosCore
 
 
 def test_a_roscore_that_has_learnt_a_type_is_for_the_tests_of_one_file(roscore: RosCore) -> None:
@@ -37,6 +40,14 @@ def test_a_roscore_forgets_the_nodes_that_were_killed(roscore: RosCore, tmp_path
     assert not roscore.is_as_new()
     roscore.forget_ended_nodes()
     assert roscore.is_as_new()
+
+
+def test_the_tests_are_collected_where_the_files_of_others_are_absent(tmp_path: Path) -> None:
+    shutil.copytree(REPOSITORY / "tests", tmp_path / "tests", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(REPOSITORY / "pyproject.toml", tmp_path)
+    command = [sys.executable, "-m", "pytest", "--collect-only", "-q", "-p", "no:cacheprovider", "tests/cli"]
+    run = subprocess.run(command, cwd=tmp_path, text=True, stdout=subprocess.PIPE, check=False)
+    assert run.returncode == 0, run.stdout
 
 
 def test_a_roscore_leaves_nothing_in_the_home_folder(tmp_path: Path) -> None:

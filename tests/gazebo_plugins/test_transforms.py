@@ -2,6 +2,7 @@
 """The transforms of a step are in one message, all of them or none."""
 
 from bubblesim._core.reading_messages import Clock, Header
+
 from bubblesim.gazebo_plugins.transforms import Transforms
 
 POSE = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
