@@ -35,6 +35,12 @@ void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, 64 * kMegabyte);
 }
 
+/// NumPy sets these variables while it is imported, if nobody has. Then other threads run, and one that reads the
+/// environment while another changes it crashes.
+void set_variables_of_numpy() {
+  for (const char* name : {"OPENBLAS_MAIN_FREE", "GOTOBLAS_MAIN_FREE"}) setenv(name, "1", 0);
+}
+
 /// A session with a scene that a client has asked for; if it cannot run, one with the empty scene.
 std::unique_ptr<Session> next_session(Node& node, const std::shared_ptr<const Scene>& scene) {
   print_warnings(scene->warnings());
@@ -98,6 +104,7 @@ int run(int given, char** given_arguments) {
 int main(int argc, char** argv) {
   using namespace bubblesim::app;
   keep_freed_memory();
+  set_variables_of_numpy();
   occupy_closed_descriptors();
   std::signal(SIGPIPE, SIG_IGN);  // readers of stdout or of a script's socket may close it
   std::signal(SIGXFSZ, SIG_IGN);  // the write to a file at its size limit fails instead

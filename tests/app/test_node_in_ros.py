@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from node_support import NAME, Node, endless_fall, processes_with, write
+from node_support import NAME, Node, endless_fall, processes_with, run_sim, write
 from ros_support import DEADLINE, RosCore, built, free_port, ros_environment, wait_until
 
 REPORT = "def sysCall_init(): print('init')\ndef sysCall_cleanup(): print('cleanup')\n"
@@ -118,3 +118,14 @@ def test_diverging_physics_pause_the_node(roscore: RosCore, tmp_path: Path) -> N
         node.wait_for_output("paused until reset or stopped")
         assert node.process.poll() is None
         assert NAME in roscore.nodes()
+
+
+def test_numpy_changes_no_variable_while_threads_of_ros_run(tmp_path: Path) -> None:
+    """It sets these while it is imported and removes those that nobody else has set."""
+    code = """
+        import os
+        def sysCall_init(): print('set:', *(os.environ.get(f'{blas}_MAIN_FREE') for blas in ('OPENBLAS', 'GOTOBLAS')))
+    """
+    script = write(tmp_path / "script.py", code)
+    run = run_sim("ball", "--no-ros", "--until", "0.1", "--child-script", f"/Ball={script}")
+    assert "set: 1 1" in run.stdout
