@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from node_support import Node
-from public_foreign_files import find, named, needs_files
+from public_foreign_files import each_of, find, needs_files
 from ros_peer import Messages, Peer
 from ros_support import RosCore
 
@@ -17,7 +17,7 @@ WHEEL_RADIUS = 0.0975  # m
 SPEED = 3.0  # rad/s
 
 
-@pytest.mark.parametrize("file", find("ros_pioneer.ttt"), ids=named)
+@pytest.mark.parametrize("file", each_of(find("ros_pioneer.ttt")))
 def test_a_pioneer_drives_by_topics_and_measures(roscore: RosCore, tmp_path: Path, file: Path) -> None:
     with Peer(roscore, tmp_path / "peer") as peer, Node(roscore.env, tmp_path / "log", file, "--speed", "2") as node:
         for side in ("left", "right"):

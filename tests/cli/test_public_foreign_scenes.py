@@ -11,7 +11,7 @@ import pytest
 
 import bubblesim
 from bubblesim import MotorMode
-from public_foreign_files import FILES, cases, find, matrix, named, needs_files
+from public_foreign_files import FILES, cases, each_of, find, matrix, named, needs_files
 from ros_support import built
 from ttt_reader import FileObject, roots, unpacked
 
@@ -121,7 +121,7 @@ ARMS += find("dnf_learning_scene.ttt", "dnf_recall_scene.ttt")  # Franka
 ARMS += find("ros_robot.ttt", "test_sendTransform.ttt")  # UR5, IRB 140
 
 
-@pytest.mark.parametrize("file", ARMS, ids=named)
+@pytest.mark.parametrize("file", each_of(ARMS))
 def test_arms_hold_still_and_move_without_thrashing(file: Path) -> None:
     simulation = bubblesim.Simulation(str(file))
     world = simulation.world
@@ -165,7 +165,7 @@ PROGRAM = 10_000_000
 """Bytes of addresses that the converter takes for a box, with its libraries."""
 
 
-@pytest.mark.parametrize("file", FILES[-3:], ids=named)
+@pytest.mark.parametrize("file", each_of(FILES[-3:]))
 def test_the_largest_load_within_two_seconds_and_ten_times_their_size(file: Path, tmp_path: Path) -> None:
     """The time is that of the processor, with the first conversion: other tests may run beside."""
     most = 10 * len(unpacked(file))

@@ -10,7 +10,7 @@ import pytest
 
 import bubblesim
 from node_support import run_sim
-from public_foreign_files import FILES, cases, find, named, needs_files
+from public_foreign_files import FILES, cases, each_of, find, named, needs_files
 from remote_support import RemoteNode
 
 pytestmark = needs_files
@@ -112,7 +112,7 @@ def test_robots_follow_the_line_of_their_scene(file: Path, robot: str, reach: fl
     assert math.dist(places[1], places[2]) > 0.2
 
 
-@pytest.mark.parametrize("file", find("quadcopter ronda teste.ttt"), ids=named)
+@pytest.mark.parametrize("file", each_of(find("quadcopter ronda teste.ttt")))
 def test_a_quadcopter_flies_after_its_target(file: Path, tmp_path: Path) -> None:
     """Its script moves the target 25 mm in 25 ms of the computer's clock: the busier the machine, the faster."""
     seconds = 10.0
@@ -136,7 +136,7 @@ def velocity_in_two_seconds(sim: Any, robot: int) -> tuple[list[float], float]:
     return list(moved), math.acos(min(1, (np.trace(first.T @ last) - 1) / 2)) / 2
 
 
-@pytest.mark.parametrize("file", [file for file in FILES if file.name.startswith("Indoor")], ids=named)
+@pytest.mark.parametrize("file", each_of([file for file in FILES if file.name.startswith("Indoor")]))
 def test_a_youbot_drives_on_its_mecanum_wheels_by_their_scripts(file: Path, tmp_path: Path) -> None:
     """Speeds of a platform on rollers at 45 degrees: ahead and aside r w, on the spot r w / (a + b)."""
     with RemoteNode(tmp_path, "--speed", "max", "--paused", scene=str(file)) as node:

@@ -18,15 +18,19 @@ FILES = sorted(
 needs_files = pytest.mark.skipif(not FILES, reason="no public files of CoppeliaSim are beside the project")
 
 
-def named(file: object) -> str:
-    """Return the name of a test's parameter, which is no file if there are none."""
-    return f"{file.parent.name}/{file.name}" if isinstance(file, Path) else ""
+def named(file: Path) -> str:
+    return f"{file.parent.name}/{file.name}"
 
 
 def cases(short: int, files: list[Path] = FILES) -> list[object]:
     """Return the files as parameters of a test: beyond the first `short` ones, it runs only with --long."""
     marks = [() if i < short else (pytest.mark.long,) for i in range(len(files))]
     return [pytest.param(file, id=named(file), marks=mark) for file, mark in zip(files, marks, strict=True)]
+
+
+def each_of(files: list[Path]) -> list[object]:
+    """Return the files as parameters of a test that runs with all of them; there may be none."""
+    return cases(len(files), files)
 
 
 def find(*names: str) -> list[Path]:
