@@ -17,7 +17,7 @@ from lupa import lua54
 from bubblesim.program.output import write_line
 from bubblesim.scene_state import log
 from bubblesim.scripting.api.absent_modules import ABSENT
-from bubblesim.scripting.api.functions import MODULES, caller_of, functions
+from bubblesim.scripting.api.functions import MODULES, ScriptFunction, caller_of, functions
 from bubblesim.scripting.api.missing_names import explain
 from bubblesim.scripting.api.old_names import note_old_name, of_v_rep, present_name
 from bubblesim.scripting.api.ros import no_ros
@@ -181,8 +181,9 @@ class LuaCode:
     def _create_sandbox(self, modules: dict[str, Any], *, unsafe: bool) -> Any:
         to_lua, callable_from_lua = self._values.to_lua, self._values.callable_from_lua
         host = self._runtime.table()
+        found = {name: functions(type(module)) for name, module in modules.items() if module}
         host[b"modules"] = self._runtime.table_from(
-            {name.encode(): self._module(module) for name, module in modules.items() if module}
+            {name.encode(): self._module(modules[name], members) for name, members in found.items()}
         )
         absent = {name: no_ros.reason(name) for name, module in modules.items() if not module}
         host[b"absent"] = to_lua(ABSENT | absent)
@@ -191,7 +192,7 @@ class LuaCode:
         host[b"find_included"] = callable_from_lua(self._find_included)
         host[b"explain"] = callable_from_lua(_explanation)
         modules["sim"].run_waiting = self._begin_waiting
-        host[b"waiting"] = self._values.to_lua([f.name for f in functions(type(modules["sim"])) if f.waits])
+        host[b"waiting"] = self._values.to_lua([f.name for f in found["sim"] if f.waits])
         host[b"go_on"] = callable_from_lua(self._go_on)
         host[b"old_name"] = callable_from_lua(self._old_name)
         host[b"v_rep_name"] = callable_from_lua(self._v_rep_name)
@@ -289,14 +290,12 @@ class LuaCode:
         write_line(sys.stderr, f"warning: {line}")
         caller.shared.log.add(log.SCRIPT_WARNING, caller.object_path, line)
 
-    def _module(self, module: Any) -> Any:
-        names = {function.name: None for function in functions(type(module))}
+    def _module(self, module: Any, members: list[ScriptFunction]) -> Any:
+        names = [member.name for member in members]
         constants = {
             name: getattr(module, name)
-            for name in dir(module)
-            if not name.startswith("_")
-            and name not in names
-            and isinstance(getattr(module, name), int | float | str | dict)
+            for name in sorted(set(dir(module)).difference(names))
+            if not name.startswith("_") and isinstance(getattr(module, name), int | float | str | dict)
         }
         table = self._runtime.table()
         table[b"constants"] = self._values.to_lua(constants)
