@@ -5,7 +5,8 @@ import asyncio
 import socket
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack, closing, suppress
+from http.client import HTTPConnection
 from pathlib import Path
 
 import pytest
@@ -37,16 +38,15 @@ def test_an_idle_connection_ends_after_its_request(server: Server) -> None:
 
 
 def test_a_connection_with_a_request_is_kept_before_those_without(server: Server) -> None:
-    request = f"GET /icon.svg HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\n\r\n".encode()
-    with server.connect() as first, ExitStack() as ends:
-        first.sendall(request)
-        assert b"200 OK" in first.recv(65536)
+    with closing(HTTPConnection("127.0.0.1", server.port, timeout=10)) as first, ExitStack() as ends:
+        first.request("GET", "/icon.svg")
+        icon = first.getresponse().read()
         others = [ends.enter_context(server.connect()) for _ in range(150)]
         for other in others:
             other.sendall(b"GET / HT")
         wait_until(lambda: is_closed(others[0]), "the oldest without a request to make room")
-        first.sendall(request)
-        assert b"200 OK" in first.recv(65536)
+        first.request("GET", "/icon.svg")
+        assert first.getresponse().read() == icon
 
 
 def test_a_thousand_connections_leave_room_for_pages(server: Server) -> None:
