@@ -201,6 +201,30 @@ def test_a_thread_that_does_not_step_is_switched_away_where_it_calls(tmp_path: P
     assert lines(tmp_path, code, until=0.25) == ["end"]
 
 
+def test_a_thread_sets_how_long_its_turns_last(tmp_path: Path) -> None:
+    code = """
+        function sysCall_thread()
+            sim.setThreadSwitchTiming(100)
+            local begin, step = sim.getSystemTime(), sim.getSimulationTime()
+            while sim.getSimulationTime() == step do end
+            print(sim.getSystemTime() - begin > 0.09, sim.getThreadSwitchTiming())
+        end
+    """
+    assert lines(tmp_path, code) == ["true\t100.0"]
+
+
+def test_a_thread_finishes_its_work_when_it_is_to_end(tmp_path: Path) -> None:
+    code = """
+        function sysCall_thread()
+            while not sim.getThreadExitRequest() do sim.step() end
+            local begin = sim.getSystemTime()
+            while sim.getSystemTime() - begin < 0.02 do end
+            print('finished')
+        end
+    """
+    assert lines(tmp_path, code) == ["finished"]
+
+
 def test_a_thread_sees_that_it_is_to_end(tmp_path: Path) -> None:
     code = """
         function sysCall_thread()

@@ -65,6 +65,22 @@ def test_without_stepping_a_thread_that_never_waits_stops_nobody(tmp_path: Path)
     assert lines(tmp_path, code, until=1.0) == ["ends True", "20"]
 
 
+@pytest.mark.parametrize("call", ["sim.setAutoYieldDelay(0.1)", "sim.setThreadSwitchTiming(100)"])
+def test_a_script_sets_how_long_its_turns_last(tmp_path: Path, call: str) -> None:
+    code = f"""
+        import time
+        def sysCall_thread():
+            {call}
+            begin, step = time.thread_time(), sim.getSimulationTime()
+            while sim.getSimulationTime() == step: pass
+            print(time.thread_time() - begin > 0.09, sim.getThreadSwitchTiming())
+            sim.setAutoYieldDelay(-1)
+    """
+    run = run_script(tmp_path, code)
+    assert run.stdout == "True 100.0\n"
+    assert "ValueError: a turn of -1 s: it must be 0 or more" in run.stderr
+
+
 @pytest.mark.parametrize("stepping", [True, False], ids=["stepping", "automatic"])
 @pytest.mark.parametrize(
     "wait",

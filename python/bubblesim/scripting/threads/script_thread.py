@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Protocol, SupportsIndex
 
-SLICE = 0.002  # s of computing time per turn in automatic mode
+SLICE = 0.002  # s of computing time per turn in automatic mode, unless the script changes it
 _SAMPLE = 0.001  # s between checks of the thread
 # s after which a thread that has not run counts as asleep; while waiting for the GIL, a thread runs every 5 ms.
 _ASLEEP_AFTER = 0.007
@@ -29,6 +29,7 @@ class AnyThread(Protocol):
     """The thread of a script in any language; see ScriptThread."""
 
     stepping: int
+    slice: float
     exit_requested: bool
 
     @property
@@ -81,6 +82,7 @@ class ScriptThread:
     def __init__(self, name: str, body: Callable[[], object]) -> None:
         """Create a thread that starts in its first turn."""
         self.stepping = 0  # depth of nested setStepping calls
+        self.slice = SLICE
         self.exit_requested = False
         self._thread = threading.Thread(target=self._run, args=(body,), name=name)
         self._changed = threading.Condition()  # guards the following members
@@ -138,7 +140,7 @@ class ScriptThread:
         seen_at = 0.0
         while self._turn and not self._done:
             notified = self._changed.wait(_SAMPLE)
-            if not self.stepping and self._computed() - begin >= SLICE:
+            if not self.stepping and self._computed() - begin >= self.slice:
                 return
             if notified or self._calling:
                 continue

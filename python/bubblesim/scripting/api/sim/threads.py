@@ -11,7 +11,7 @@ from bubblesim._core import RunState
 from bubblesim.scripting.api.checked_calls import any_time
 from bubblesim.scripting.api.sim.context import ApiContext
 from bubblesim.scripting.api.waiting_functions import Waiting
-from bubblesim.scripting.threads.script_thread import AnyThread, current
+from bubblesim.scripting.threads.script_thread import SLICE, AnyThread, current
 
 _TOLERANCE = 1e-6  # of a step
 
@@ -48,15 +48,30 @@ class ThreadFunctions(ApiContext):
         """Return whether stepping mode is off, for older scripts."""
         return self.getStepping() == 0
 
+    @any_time
     def setThreadSwitchTiming(self, milliseconds: float) -> None:
-        """For older scripts: turns last 2 ms."""
+        """Set how long the turns of the calling thread last outside of stepping mode, for older scripts.
 
+        Raises ValueError for a negative time.
+        """
+        self.setAutoYieldDelay(milliseconds / 1000)
+
+    @any_time
     def getThreadSwitchTiming(self) -> float:
-        """Return how long a turn lasts, ms, for older scripts."""
-        return 2.0
+        """Return how long the turns of the calling thread last, ms, for older scripts."""
+        thread = current()
+        return 1000 * (SLICE if thread is None else thread.slice)
 
+    @any_time
     def setAutoYieldDelay(self, seconds: float) -> None:
-        """Accept how long a turn lasts: 2 ms."""
+        """Set how long the turns of the calling thread last outside of stepping mode, instead of 2 ms.
+
+        Raises ValueError for a negative time. Outside of a thread it has no effect.
+        """
+        if not seconds >= 0:
+            raise ValueError(f"a turn of {seconds:g} s: it must be 0 or more")
+        if (thread := current()) is not None:
+            thread.slice = seconds
 
     @any_time
     def setThreadSwitchAllowed(self, allowed: bool) -> int:
