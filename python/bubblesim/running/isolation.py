@@ -12,20 +12,22 @@ from bubblesim.running.processes import RunError
 
 _FIRST_PORT = 11400
 _DOMAINS = 101  # of ROS 2: above, its ports are those of outgoing connections on Linux
-_ALL_IN_USE = f"the ports {_FIRST_PORT + 1} to {_FIRST_PORT + _DOMAINS} are all in use: `bubblesim ps` lists runs"
+_ALL_IN_USE = (
+    f"the ROS domains 1 to {_DOMAINS} and their ports from {_FIRST_PORT + 1} are all in use: `bubblesim ps` lists runs"
+)
 
 
 def isolate(environment: MutableMapping[str, str] = os.environ) -> str:
     """Set ROS_MASTER_URI and ROS_DOMAIN_ID to those of a new number N; return the command that sets them elsewhere.
 
-    The master has port 11400 + N, the domain is N: nobody else on this machine uses the domain while the master runs.
-    A master of another machine is left.
+    The master has port 11400 + N, the domain is N. Nobody else on this machine gets the number until this process has
+    ended, also if it becomes another program (exec). A master of another machine is left.
 
     :raises RunError: if no number is free.
     """
-    number = next((number for number in _numbers() if _is_free(_FIRST_PORT + number)), None)
-    if number is None:
-        raise RunError(_ALL_IN_USE)
+    number, holder = reserve_domain()
+    holder.set_inheritable(True)
+    holder.detach()  # the end of the process closes it
     values = {
         "ROS_MASTER_URI": f"http://localhost:{_FIRST_PORT + number}",
         "ROS_HOSTNAME": "localhost",
@@ -41,13 +43,15 @@ def reserve_domain() -> tuple[int, socket.socket]:
     :raises RunError: if no number is free.
     """
     for number in _numbers():
-        holder = socket.socket()
+        holder = socket.socket(socket.AF_UNIX)
         try:
-            holder.bind(("127.0.0.1", _FIRST_PORT + number))  # without SO_REUSEADDR: others cannot bind the port, too
+            holder.bind(f"\0bubblesim_domain_{number}")  # an abstract name, which ends with its last descriptor
         except OSError:
             holder.close()
             continue
-        return number, holder
+        if _is_free(_FIRST_PORT + number):
+            return number, holder
+        holder.close()
     raise RunError(_ALL_IN_USE)
 
 
