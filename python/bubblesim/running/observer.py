@@ -35,6 +35,10 @@ class Observer:
         published = {topic for topic, _type in rospy.get_published_topics()}
         return all(each.get_num_connections() > 0 for each in self._subscribers if each.name in published)
 
+    def sees_a_robot(self) -> bool:
+        """Return whether somebody publishes /tf."""
+        return any(each.name == "/tf" and each.get_num_connections() > 0 for each in self._subscribers)
+
     def _on_clock(self, message: Clock) -> None:
         self._sim_time = message.clock.to_sec()
 

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import contextlib
-import math
 import time
 
 import rosgraph
@@ -16,6 +15,7 @@ from bubblesim.program.simulators import simulators
 from bubblesim.running.observer import Observer
 
 _ADVERTISING = 0.5  # s after the first step, until the master knows its topics
+_ADVERTISING_AT_MOST = 5.0  # s, on a busy machine; if /tf is still not there, no robot is published
 
 
 class PausedStart:
@@ -29,7 +29,7 @@ class PausedStart:
         """Begin with advance()."""
         self._observer = observer
         self._simulator: str | None = None
-        self._advertised_at = math.inf
+        self._stepped_at: float | None = None
         self._is_done = False
 
     def advance(self) -> None:
@@ -42,9 +42,13 @@ class PausedStart:
     def _advance(self) -> None:
         if self._simulator is None:
             self._simulator = next(iter(simulators(rosgraph.Master(rospy.get_name()).getSystemState())), None)
-        elif self._advertised_at == math.inf:
+        elif self._stepped_at is None:
             rospy.ServiceProxy(f"{self._simulator}/step", Step)(1)
-            self._advertised_at = time.monotonic() + _ADVERTISING
-        elif time.monotonic() > self._advertised_at and self._observer.is_connected():
+            self._stepped_at = time.monotonic()
+        elif self._observer.is_connected() and self._is_advertised(time.monotonic() - self._stepped_at):
             rospy.ServiceProxy(f"{self._simulator}/unpause", Empty)()
             self._is_done = True
+
+    def _is_advertised(self, waited: float) -> bool:
+        """Return whether the master knows the topics of the scene, as far as one can tell."""
+        return waited > (_ADVERTISING if self._observer.sees_a_robot() else _ADVERTISING_AT_MOST)
