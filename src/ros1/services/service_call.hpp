@@ -5,6 +5,7 @@
 // All functions block until `deadline`, or longer, because calls to the master have no time limit.
 #pragma once
 
+#include <atomic>
 #include <string>
 
 #include "bubblesim/messages/bridge.hpp"
@@ -12,9 +13,9 @@
 
 namespace bubblesim {
 
-/// Throws messages::ServiceError, TimedSocket::TimedOut.
+/// Sets `found` once the master has answered. Throws messages::ServiceError, TimedSocket::TimedOut.
 messages::WireBuffer call_service(const std::string& name, const messages::ServiceType& type,
-                                  messages::WireBuffer request, const Deadline& deadline);
+                                  messages::WireBuffer request, const Deadline& deadline, std::atomic<bool>& found);
 
 /// Returns whether a server of the service accepts connections; false without a master.
 bool find_service(const std::string& name, const Deadline& deadline);

@@ -3,6 +3,7 @@
 
 #include <ros/master.h>
 
+#include <atomic>
 #include <cmath>
 #include <exception>
 #include <stdexcept>
@@ -150,6 +151,7 @@ WireBuffer Services::call(EndpointId client, WireBuffer request, double timeout)
     WireBuffer request;
     WireBuffer response;
     std::exception_ptr error;
+    std::atomic<bool> found{false};
   };
   const auto call = std::make_shared<Call>();
   call->request = std::move(request);
@@ -157,18 +159,20 @@ WireBuffer Services::call(EndpointId client, WireBuffer request, double timeout)
   const bool finished = run_beside(
       [call, deadline, service = name, &wanted = type] {
         try {
-          call->response = call_service(service, wanted, std::move(call->request), deadline);
+          call->response = call_service(service, wanted, std::move(call->request), deadline, call->found);
         } catch (...) {
           call->error = std::current_exception();
         }
       },
       deadline);
+  const std::string late = "service '" + name + "' did not answer within " + seconds_text(timeout);
+  if (!finished && call->found) throw ServiceError(late);  // the thread has not come to report it
   if (!finished) throw ServiceError("service '" + name + "' was not called: the ROS master does not answer");
   if (!call->error) return std::move(call->response);
   try {
     std::rethrow_exception(call->error);
   } catch (const TimedSocket::TimedOut&) {
-    throw ServiceError("service '" + name + "' did not answer within " + seconds_text(timeout));
+    throw ServiceError(late);
   }
 }
 
@@ -204,7 +208,7 @@ std::shared_ptr<ServiceServer> Services::find_own(const std::string& name) const
 }
 
 /// Runs `work` on its own thread and answers requests until it has ended. Returns false if it has not ended by
-/// `deadline`: only the master can delay it longer.
+/// `deadline`: only the master and a busy machine can delay it longer.
 bool Services::run_beside(std::function<void()> work, Deadline deadline) {
   if (nested_ >= kMostNested) {
     throw ServiceError(std::to_string(kMostNested) + " nested service calls: check for services that call each other");
