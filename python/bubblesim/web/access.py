@@ -20,7 +20,7 @@ _WRITING = {"sim.getRandom"}  # draws from the scene's random numbers
 _NO_TOKEN = 4401  # the close code that the page knows
 _NEEDS_TOKEN = b"This address needs a token: open the whole address that the simulator has printed"
 _TOO_MANY = b"Too many pages show this simulation: close one"
-_TIME_FOR_TOKEN = 5.0  # s
+_TIME_FOR_TOKEN = 15.0  # s: a busy page draws first
 _HEADERS = {
     "Content-Security-Policy": "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; "
     "frame-ancestors 'none'; base-uri 'none'; form-action 'none'",
