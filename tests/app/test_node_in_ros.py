@@ -20,10 +20,10 @@ def test_signals_end_it_cleanly(roscore: RosCore, tmp_path: Path, number: signal
     script = write(tmp_path / "script.py", REPORT)
     with Node(roscore.env, tmp_path / "log", "ball", "--child-script", f"/Ball={script}") as node:
         node.wait_until_listed(roscore)
-        node.wait_for_output("init")
+        node.wait_for_output("init\n")
         assert node.end(number) == 0
         assert node.output.endswith("cleanup\n")
-        assert NAME not in roscore.nodes()
+        assert node.has_unregistered(roscore)
 
 
 def test_a_terminal_that_is_closed_ends_it_with_its_children(roscore: RosCore, tmp_path: Path) -> None:
@@ -73,7 +73,7 @@ def test_services_pause_and_resume_it(roscore: RosCore, tmp_path: Path) -> None:
     options = ["--paused", "--until", 0.5, "--child-script", f"/Ball={script}"]
     with Node(roscore.env, tmp_path / "log", "ball", *options) as node:
         wait_until(lambda: f"{NAME}/unpause" in roscore.state()["services"], "the service")
-        assert "init" not in node.output
+        assert "init\n" not in node.output
         roscore.run("rosservice", "call", f"{NAME}/unpause")
         assert node.process.wait(timeout=DEADLINE) == 0
         assert node.output.endswith("init\ncleanup\n")

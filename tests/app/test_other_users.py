@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Other users of the machine read nothing of a run, and files that they put in its way harm nobody."""
 
+import contextlib
 import json
 import os
 import stat
@@ -101,8 +102,12 @@ def test_another_user_opens_nothing_that_a_run_makes(roscore: RosCore, tmp_path:
 
 def is_of(node: ListeningNode, path: Path) -> bool:
     """Return whether a process of a node has a file open."""
-    pids = [node.process.pid, *children(node.process.pid)]
-    return any(each.exists() and each.samefile(path) for pid in pids for each in Path(f"/proc/{pid}/fd").iterdir())
+    for pid in (node.process.pid, *children(node.process.pid)):
+        for each in Path(f"/proc/{pid}/fd").iterdir():
+            with contextlib.suppress(FileNotFoundError):  # one of them is gone meanwhile
+                if each.samefile(path):
+                    return True
+    return False
 
 
 def test_a_saved_state_does_not_follow_the_link_of_another_user(tmp_path: Path) -> None:

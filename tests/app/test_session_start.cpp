@@ -247,10 +247,10 @@ def on_time(message):
     });
   }
 
-  /// What is attached when `is_settled` holds, or in 2 s: threads of ZeroMQ and ROS end later than their last use.
+  /// What is attached when `is_settled` holds, or in 30 s: threads of ZeroMQ and ROS end later than their last use.
   template <class Condition>
   Attached attached_after(Condition is_settled) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     Attached now = attached();
     while (!is_settled(now) && std::chrono::steady_clock::now() < end) {
       std::this_thread::sleep_for(std::chrono::milliseconds(2));

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from bubblesim.gazebo_plugins.sensors.gz_battery import LinearBattery
-from ros_peer import Message, Peer
+from ros_peer import Message, Messages, Peer
 
 STATE = "sensor_msgs/BatteryState"
 CHARGING, DISCHARGING, FULL = 1, 2, 4
@@ -109,13 +109,14 @@ def test_a_reset_charges_it_and_switches_the_motors_on(running: Any) -> None:
     topic = "/model/turning/battery/main/state"
     peer.publish("/model/turning/battery/main/recharge/stop", "std_msgs/Bool", {"data": True})
     peer.wait_for(topic, STATE, lambda state: state["charge"] == 0.0, "the battery to be empty")
-    peer.call("/gazebo/reset_world")
-    peer.wait_for(topic, STATE, lambda state: 0.0 < state["charge"] < 0.02, "the battery to have charge")
+    charges, joints = Messages(peer, topic, STATE), Messages(peer, "/turning/joints", "sensor_msgs/JointState")
+    peer.call("/gazebo/reset_world")  # the charge is for 4.5 s
+    charges.next(lambda state: 0.0 < state["charge"] < 0.02, "the battery to have charge")
 
     def turns(states: Message) -> bool:
         return bool(states["velocity"][states["name"].index("disc_joint")] == pytest.approx(2.0, abs=0.01))
 
-    peer.wait_for("/turning/joints", "sensor_msgs/JointState", turns, "the disc to turn again")
+    joints.next(turns, "the disc to turn again")
 
 
 def test_a_charge_above_the_capacity_is_reported(running: Any) -> None:

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """gz-sim's velocity control of multicopters, on the model of the scene quadcopter."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 import bubblesim
 from bubblesim.gazebo_plugins.robots import GazeboPlugins
-from node_support import write
-from ros_support import REPOSITORY
+from node_support import Node, write
+from ros_peer import Peer
+from ros_support import REPOSITORY, RosCore
 
 ROTORS = "".join(f"<rotor><jointName>rotor_{i}_joint</jointName></rotor>" for i in range(4))
 GAINS = """<velocityGain>2.7 2.7 2.7</velocityGain><attitudeGain>2 2 0.15</attitudeGain>
@@ -28,19 +28,20 @@ def scene(folder: Path, parameters: str) -> Path:
     )
 
 
-def test_it_flies_at_the_velocity_of_a_twist_until_it_is_disabled(run: Callable[..., object], tmp_path: Path) -> None:
+def test_it_flies_at_the_velocity_of_a_twist_until_it_is_disabled(roscore: RosCore, tmp_path: Path) -> None:
     parameters = f"""<robotNamespace>X3</robotNamespace><comLinkName>base_link</comLinkName>{GAINS}
       <rotorConfiguration>{ROTORS}</rotorConfiguration><maximumLinearVelocity>2 2 0.5</maximumLinearVelocity>"""
-    peer = run(scene(tmp_path, parameters)).peer  # type: ignore[attr-defined]
     altimeter = "/altimeter", "geometry_msgs/PointStamped"
-    peer.next(*altimeter)
-    peer.publish("/X3/cmd_vel", "geometry_msgs/Twist", {"linear": {"z": 9.0}, "angular": {}})
-    low = peer.wait_for(*altimeter, lambda it: it["point"]["z"] > 1.0, "the climb")
-    high = peer.wait_for(*altimeter, lambda it: it["point"]["z"] > low["point"]["z"] + 1.0, "the climb")
-    speed = (high["point"]["z"] - low["point"]["z"]) / (high["header"]["stamp"] - low["header"]["stamp"])
-    assert speed == pytest.approx(0.5, abs=0.1), "limited, with the noise of the altimeter"
-    peer.publish("/X3/enable", "std_msgs/Bool", {"data": False})
-    peer.wait_for(*altimeter, lambda it: it["point"]["z"] < 0.3, "the fall")
+    roscore.set_param("/use_sim_time", True)
+    with Node(roscore.env, tmp_path / "log", scene(tmp_path, parameters)), Peer(roscore, tmp_path / "received") as peer:
+        peer.next(*altimeter)
+        peer.publish("/X3/cmd_vel", "geometry_msgs/Twist", {"linear": {"z": 9.0}, "angular": {}})
+        low = peer.wait_for(*altimeter, lambda it: it["point"]["z"] > 1.0, "the climb")
+        high = peer.wait_for(*altimeter, lambda it: it["point"]["z"] > low["point"]["z"] + 1.0, "the climb")
+        speed = (high["point"]["z"] - low["point"]["z"]) / (high["header"]["stamp"] - low["header"]["stamp"])
+        assert speed == pytest.approx(0.5, abs=0.1), "limited, with the noise of the altimeter"
+        peer.publish("/X3/enable", "std_msgs/Bool", {"data": False})
+        peer.wait_for(*altimeter, lambda it: it["point"]["z"] < 0.3, "the fall")
 
 
 @pytest.mark.parametrize(

@@ -123,9 +123,10 @@ def test_clients_move_three_arms_at_once(node: RemoteNode) -> None:
 
     threads = [threading.Thread(target=move_joints, args=(arm,)) for arm in ("/blueRobot", "/redRobot")]
     threads.append(threading.Thread(target=move_target))
+    sim = node.sim()  # connected before: a movement waits 2 s for the start
     for thread in threads:
         thread.start()
-    node.sim().startSimulation()
+    sim.startSimulation()
     for thread in threads:
         thread.join()
     assert found["/blueRobot"] == pytest.approx(goal, abs=0.01)
@@ -139,7 +140,7 @@ def test_a_movement_waits_for_the_start_but_not_for_long(node: RemoteNode) -> No
     movement = {"joints": [joint], "targetPos": [0.5], "maxVel": [1.0], "maxAccel": [1.0], "maxJerk": [10.0]}
     with pytest.raises(Exception, match="the simulation is stopped, its time does not pass"):
         sim.moveToConfig(movement)
-    start = threading.Timer(0.5, node.sim().startSimulation)
+    start = threading.Timer(0.1, node.sim().startSimulation)
     start.start()
     sim.moveToConfig(movement)
     start.join()

@@ -8,6 +8,7 @@ import pytest
 from node_support import run_sim, write
 from remote_support import RemoteNode, refusal
 from ros_support import RosCore, wait_until
+from service_caller import ServiceCaller
 
 NODE = "/sim_ros_interface"
 
@@ -126,14 +127,16 @@ def test_ros_nodes_see_the_topics_of_the_scene_that_is_loaded(roscore: RosCore, 
             sim.startSimulation()
             wait_until(lambda: "/front_sonar" in published(), "the tricycle's topics")
             assert sim.loadScene("bubblerob") == 1
-            assert not published() & {"/front_sonar", "/odom"}
+            wait_until(lambda: not published() & {"/front_sonar", "/odom"}, "the tricycle's topics to be gone")
             sim.startSimulation()
             wait_until(lambda: "/notifications" in published(), "BubbleRob's topics")
             stamps = [roscore.echo("/clock") for _ in range(2)]
             assert stamps[0] != stamps[1]
             assert sim.loadScene("tricycle") == 1
-        states = roscore.run("rosservice", "call", f"{NODE}/get_object_state", "object: '/Tricycle'")
-        assert "success: True" in states
+        with ServiceCaller(roscore) as call:  # services are registered anew with each scene
+            wait_until(
+                lambda: call(f"{NODE}/get_object_state", object="/Tricycle").get("success"), "the state of the tricycle"
+            )
         sim.stopSimulation()
 
 

@@ -32,12 +32,6 @@ def has_got(probe: Probe, subscriber: str, messages: list[str]) -> bool:
     return probe.messages(subscriber) == messages
 
 
-def publish_from_outside(core: RosCore, topic: str, type_name: str, *values: str) -> None:
-    """Publish each value with `rostopic pub -1`, which latches and so waits for the subscriber."""
-    for value in values:
-        core.run("rostopic", "pub", "-1", topic, type_name, "--", value)
-
-
 def test_rostopic_echo_prints_what_is_published(roscore: RosCore, tmp_path: Path) -> None:
     log = tmp_path / "echo"
     with Probe(roscore.env) as probe:
@@ -118,17 +112,18 @@ def test_subscriber_gets_what_rostopic_pub_sends(roscore: RosCore) -> None:
     with Probe(roscore.env) as probe:
         subscriber = probe.ask("subscribe", "/steering", "float")
         probe.wait_for(lambda: is_registered(roscore, "subscribers", "/steering"), "the subscriber")
-        publish_from_outside(roscore, "/steering", "std_msgs/Float32", "-1.5")
-        probe.wait_for(lambda: probe.messages(subscriber) == ["-1.500000"], "the message")
+        with roscore.publishing("/steering", "std_msgs/Float32", "--", "-1.5"):
+            probe.wait_for(lambda: probe.messages(subscriber) == ["-1.500000"], "the message")
 
 
 def test_two_subscribers_of_a_topic_get_each_message(roscore: RosCore) -> None:
     with Probe(roscore.env) as probe:
         subscribers = [probe.ask("subscribe", "/name", "string") for _ in range(2)]
         probe.wait_for(lambda: is_registered(roscore, "subscribers", "/name"), "the subscribers")
-        publish_from_outside(roscore, "/name", "std_msgs/String", "one", "two")
-        for subscriber in subscribers:
-            probe.wait_for(partial(has_got, probe, subscriber, ["one", "two"]), f"subscriber {subscriber}")
+        for received in (["one"], ["one", "two"]):
+            with roscore.publishing("/name", "std_msgs/String", received[-1]):
+                for subscriber in subscribers:
+                    probe.wait_for(partial(has_got, probe, subscriber, received), f"subscriber {subscriber}")
 
 
 def test_own_publisher_reaches_own_subscriber(roscore: RosCore) -> None:

@@ -71,7 +71,9 @@ def test_ros2_sends_goals_to_a_script(ros2_domain: Domain, peer: Ros2Peer, packa
     with node_with(ros2_domain, packages, tmp_path, SERVER):
         assert peer.send_goal("/count", FIBONACCI, order=6)
         assert peer.result() == {"status": SUCCEEDED, "result": {"sequence": [0, 1, 1, 2, 3, 5]}}
-        assert peer.reported("feedback")[-1] == {"sequence": [0, 1, 1, 2, 3, 5]}
+        feedback = [each["sequence"] for each in peer.reported("feedback")]  # rclpy drops the last, if it is late
+        assert feedback == [[0, 1, 1, 2, 3, 5][:length] for length in range(3, 3 + len(feedback))]
+        assert feedback
         assert not peer.send_goal("/count", FIBONACCI, order=-1)
         assert peer.send_goal("/count", FIBONACCI, order=7)
         assert peer.result()["status"] == ABORTED

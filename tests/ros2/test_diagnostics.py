@@ -112,6 +112,7 @@ def test_both_sides_report_all_steps(
     """At 20 steps in each second; each side would get half of them if they shared a report."""
     with Node(roscore.env | ros2_domain.env(), tmp_path / "log", "ball", "--ros=both", "--speed=1"):
         ros2_peer.next("/diagnostics", ARRAY, count=4)
-        steps = sum(int(values(each)["Steps"]) for each in ros2_peer.received("/diagnostics")[1:])
-        first, last = (values(ros2_peer.received("/diagnostics")[at])["Simulation time (s)"] for at in (0, -1))
+        reports = [values(each) for each in ros2_peer.received("/diagnostics")[:4]]
+        steps = sum(int(each["Steps"]) for each in reports[1:])
+        first, last = (reports[at]["Simulation time (s)"] for at in (0, -1))
         assert steps == pytest.approx((float(last) - float(first)) / 0.05, abs=1.5)

@@ -35,7 +35,7 @@ def test_node_and_types_are_known_by_name(ros2_domain: Domain, ros2_peer: Ros2Pe
 
 def test_the_clock_is_simulation_time(ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path: Path) -> None:
     with Node(ros2_domain.env(), tmp_path / "log", "ball", "--ros=2"):
-        ros2_peer.received("/clock", "rosgraph_msgs/msg/Clock", best_effort=True)
+        ros2_peer.received("/clock", "rosgraph_msgs/msg/Clock", best_effort=True, depth=100)
         wait_until(lambda: len(ros2_peer.received("/clock")) > 20, "20 times")
     times = [
         message["clock"]["sec"] * 1000 + message["clock"]["nanosec"] // 1_000_000

@@ -2,6 +2,7 @@
 """What peers of ROS 2 do neither ends nor holds up the simulation."""
 
 import random
+import re
 import socket
 import struct
 import time
@@ -37,7 +38,7 @@ def node_with(domain: Domain, folder: Path) -> Node:
 
 def seconds(node: Node) -> float:
     """Return the simulation time that the script has printed last."""
-    return float(node.output.rpartition("at ")[2].split("\n", 1)[0] or 0.0)
+    return float([0.0, *re.findall(r"^at ([0-9.]+)$", node.output, re.MULTILINE)][-1])
 
 
 def test_a_stopped_subscriber_does_not_stop_the_simulation(

@@ -69,6 +69,7 @@ def test_services_that_are_not_there_or_of_another_type_are_reported(
     ros2_peer.serve("/switch", SET_BOOL, success=True)
     script = """
         def sysCall_init():
+            simROS2.waitForService('/switch', 60.0)
             for name in ('/nobody', '/switch'):
                 client = simROS2.createClient(name, 'std_srvs/srv/Trigger')
                 try:

@@ -30,8 +30,9 @@ def drives(peer: Ros2Peer, forward: float, left: float) -> bool:
 
 def test_the_ball_publishes_its_time(ros2_domain: Domain, ros2_peer: Ros2Peer, tmp_path: Path) -> None:
     with Node(ros2_domain.env(), tmp_path / "log", "ball", "--ros=2"):
-        first = ros2_peer.next("/simulationTime", "std_msgs/msg/Float32")["data"]
-        assert ros2_peer.next("/simulationTime", count=5)["data"] == pytest.approx(first + 0.25, abs=0.151)
+        ros2_peer.next("/simulationTime", "std_msgs/msg/Float32", count=6, depth=100)
+        first, *others = (message["data"] for message in ros2_peer.received("/simulationTime")[:6])
+        assert others == pytest.approx([first + 0.05 * count for count in range(1, 6)], abs=1e-4)
         assert ros2_peer.graph()["topics"]["/tf"]["types"] == ["tf2_msgs/msg/TFMessage"]
 
 

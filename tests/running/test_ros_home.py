@@ -10,7 +10,7 @@ import pytest
 from ros_support import built, free_port
 
 COMMANDS = {
-    "demo": [str(built("bubblesim")), "demo", "tricycle", "--seconds", "2"],
+    "demo": [str(built("bubblesim")), "demo", "tricycle", "--seconds", "8"],
     "run": [str(built("bubblesim")), "run", "ball", "--roscore", "--until", "0.5", "--speed", "max"],
     "node": [str(built("sim")), "ball", "--until", "0.5", "--speed", "max"],
     "window": [str(built("sim")), "ball", "--until", "0.5", "--web"],

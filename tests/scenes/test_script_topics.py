@@ -293,7 +293,7 @@ def test_what_a_script_publishes_at_its_end_arrives(script: Script, roscore: Ros
         def sysCall_actuation():
             publish('running')
         def sysCall_cleanup():
-            for count in range(50):
+            for count in range(10):
                 publish(f'{count} at the end'.rjust(50_000))
         """)
     topics = [f"/topic{n}" for n in range(4)]
@@ -303,6 +303,6 @@ def test_what_a_script_publishes_at_its_end_arrives(script: Script, roscore: Ros
         assert node.end() == 0
         for topic in topics:
             wait_until(
-                lambda topic=topic: peer.received(topic)[-1]["data"].strip() == "49 at the end",
+                lambda topic=topic: peer.received(topic)[-1]["data"].strip() == "9 at the end",
                 f"the last message on {topic}",
             )

@@ -36,7 +36,7 @@ def test_bytes_of_messages_are_tables_in_lua_unless_a_script_wants_strings(rosco
         wait_until(lambda: node.output.count("python") and node.output.count("string"), "the messages")
         wait_until(lambda: "table\ttable\t2" in node.output, "the table")
         assert "string\tstring\t3" in node.output
-        assert "python b'\\x01\\x02\\x03'" in node.output
+        node.wait_for_output("python b'\\x01\\x02\\x03'")
 
 
 SERVICES = """

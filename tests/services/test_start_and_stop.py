@@ -44,7 +44,7 @@ def test_restarts_set_up_sockets_and_topics_again_and_leak_no_descriptors(run: R
         def sysCall_cleanup(): print('cleanup', sim.getSimulationState())
     """
     node, remote = run(code, "--paused", subscribe=["/of_the_script=Float32"])
-    assert node.output.count("init") == 0
+    assert node.output.count("init ") == 0
     wait_until_sent(roscore.env, "/rosout")  # roscore's connection counts
     baseline = open_files(node.process.pid)
     for starts in range(1, RESTARTS + 1):
@@ -144,7 +144,7 @@ def test_a_slow_simulation_receives_a_stop_between_its_steps(run: Run) -> None:
     node, remote = run(
         "def sysCall_init(): print('init')\ndef sysCall_cleanup(): print('cleanup')\n", "--speed", "0.0001"
     )
-    node.wait_for_output("init")
+    node.wait_for_output("init\n")
     remote.press("stop")
     node.wait_for_output("cleanup")
 

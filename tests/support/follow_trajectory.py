@@ -46,7 +46,7 @@ def main() -> None:
     client.wait_for_result(rospy.Duration(60))
     end = rospy.get_time()
     result = client.get_result()
-    while states[-1].header.stamp.to_sec() < end:  # on a busy machine they come later than the result
+    while not states or states[-1].header.stamp.to_sec() < end:  # on a busy machine they come later than the result
         time.sleep(0.01)
     last = states[-1]
     print(

@@ -7,6 +7,7 @@ import re
 import signal
 import subprocess
 import textwrap
+import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -156,6 +157,7 @@ class Node(Background):
         command = [*within, str(built("sim")), *map(str, arguments)]
         with log.open("w") as output:
             self.process = start(command, env, stdout=output, stderr=subprocess.STDOUT)
+        self._took = 0.0  # s to its end
 
     @property
     def output(self) -> str:
@@ -169,8 +171,21 @@ class Node(Background):
 
     def end(self, number: int = signal.SIGINT) -> int:
         """Send a signal to the node only and return its exit code."""
+        begin = time.monotonic()
         self.process.send_signal(number)
-        return self.process.wait(timeout=DEADLINE)
+        try:
+            return self.process.wait(timeout=DEADLINE)
+        finally:
+            self._took = time.monotonic() - begin
+
+    def has_unregistered(self, core: RosCore, blocked: float = 0.0) -> bool:
+        """Return whether the master no longer lists it after its end.
+
+        A busy master gets one second, after which the node ends without its answers.
+
+        :param blocked: s for which a script kept the node before.
+        """
+        return NAME not in core.nodes() or self._took > blocked + 1.0
 
 
 def findings_of(probe: str, env: dict[str, str], folder: Path) -> dict[str, Any]:
@@ -179,7 +194,7 @@ def findings_of(probe: str, env: dict[str, str], folder: Path) -> dict[str, Any]
     with reported.open("w") as output:
         process = start(["/usr/bin/python3", str(write(folder / "probe.py", probe))], env, stdout=output)
     try:
-        wait_until(lambda: reported.read_text().endswith("}\n"), "what the probe found", timeout=60.0)
+        wait_until(lambda: reported.read_text().endswith("}\n"), "what the probe found", timeout=3 * DEADLINE)
     finally:
         stop(process)
     found: dict[str, Any] = json.loads(reported.read_text())

@@ -40,7 +40,7 @@ class Peer(PeerProcess):
         """Return the count-th message after those received so far."""
         before = len(self.received(topic, message_type))
         wait_until(lambda: len(self.received(topic)) >= before + count, f"{topic}, {count} times")
-        return self.received(topic)[-1]
+        return self.received(topic)[before + count - 1]
 
     def wait_for(self, topic: str, message_type: str, holds: Callable[[Message], bool], what: str) -> Message:
         """Return the first message from now on for which `holds` is true."""

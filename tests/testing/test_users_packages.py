@@ -14,7 +14,7 @@ ACTIVATE = REPOSITORY / "scripts" / "environment" / "activate.bash"
 ANYWHERE = [
     ["bubblesim", "test", "test_mine.py"],
     ["bubblesim", "sweep", "tricycle", "--seeds", "0:2", "--duration", "0.2", "--plot", "plot.png"],
-    ["bubblesim", "demo", "tricycle", "--seconds", "2"],
+    ["bubblesim", "demo", "tricycle", "--seconds", "8"],
     ["rosrun", "bubblesim", "go_to.py", "--help"],
     ["rosrun", "bubblesim", "explore.py", "--help"],
     ["rosrun", "bubblesim", "map_server", "--help"],

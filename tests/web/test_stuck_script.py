@@ -24,7 +24,7 @@ def test_the_stop_button_ends_it(tmp_path: Path, show: Callable[..., Window], na
         node.find(r"(has not returned from sysCall_actuation)")
         page.button("Stop").click()
         node.find(r"(was interrupted)")
-        page.wait("bubblesim.link.call('window.share', []).then((scene) => scene !== null)")
+        assert page.js("bubblesim.link.call('window.share', []).then((scene) => scene !== null)")
 
 
 def test_a_pause_is_carried_out_when_the_script_returns(tmp_path: Path, show: Callable[..., Window]) -> None:

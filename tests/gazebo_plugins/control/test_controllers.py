@@ -4,6 +4,7 @@
 import itertools
 import json
 import math
+import statistics
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -182,7 +183,7 @@ def test_a_trajectory_is_followed(arm: Arm) -> None:
     result = arm.follow("/trajectory_controller", names=["shoulder", "elbow"], points=points)
     assert (result["state"], result["error_code"]) == (SUCCEEDED, 0), result
     assert result["largest_error"] < 2e-3
-    assert result["took"] == pytest.approx(2.0, abs=0.3)
+    assert 1.9 < result["took"] < 5.0, "2 s, and the way of goal and result on a busy machine"
     assert result["positions"]["shoulder"] == pytest.approx(-0.2, abs=2e-3)
     assert result["positions"]["elbow"] == pytest.approx(0.3, abs=2e-3)
 
@@ -266,7 +267,9 @@ def test_joint_states_come_at_their_rate(arm: Arm) -> None:
     text = arm.core.echo("/joint_states", field="/header/stamp", count=20)
     seconds = [int(part) for part in text.replace("nsecs:", "").replace("secs:", "").split() if part.isdigit()]
     stamps = [whole + rest * 1e-9 for whole, rest in zip(seconds[::2], seconds[1::2], strict=True)]
-    assert [b - a for a, b in itertools.pairwise(stamps)] == pytest.approx([0.01] * 19, abs=1e-6)
+    periods = [(b - a) / 0.01 for a, b in itertools.pairwise(stamps)]  # a message may be lost: the queue holds 10
+    assert periods == pytest.approx([round(each) for each in periods], abs=1e-4)
+    assert statistics.mode(round(each) for each in periods) == 1
 
 
 def numbers_of(text: str, section: str) -> list[float]:
