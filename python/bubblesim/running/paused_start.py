@@ -50,5 +50,5 @@ class PausedStart:
             self._is_done = True
 
     def _is_advertised(self, waited: float) -> bool:
-        """Return whether the master knows the topics of the scene, as far as one can tell."""
+        """Return whether the master should know the topics of the scene by now."""
         return waited > (_ADVERTISING if self._observer.sees_a_robot() else _ADVERTISING_AT_MOST)

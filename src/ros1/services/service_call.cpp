@@ -113,8 +113,8 @@ ServiceError other_type(const std::string& service, const std::string& name, con
   return ServiceError(text);
 }
 
-WireBuffer call_service(const std::string& name, const ServiceType& type, WireBuffer request,
-                        const Deadline& deadline, std::atomic<bool>& found) {
+WireBuffer call_service(const std::string& name, const ServiceType& type, WireBuffer request, const Deadline& deadline,
+                        std::atomic<bool>& found) {
   if (request.size() > std::numeric_limits<std::uint32_t>::max()) throw ServiceError("the request has 4 GiB or more");
   const std::optional<Address> address = look_up(name);
   if (!address) throw ServiceError("no service '" + name + "'" + did_you_mean(name, known_services()));
