@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Services advertised and called by the bridge."""
 
+import signal
 import socket
 import time
 import xmlrpc.client
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -189,6 +191,20 @@ def test_call_of_a_server_that_never_answers_times_out(roscore: RosCore) -> None
         begin = time.monotonic()
         assert probe.ask("call", client, 1.5, 1) == "! service '/paint' did not answer within 1.5 s"
         assert time.monotonic() - begin > 1.5
+
+
+def test_call_that_timed_out_while_the_process_was_stopped_is_no_fault_of_the_master(roscore: RosCore) -> None:
+    """Its two threads continue in any order."""
+    with Probe(roscore.env) as probe, silent_server(roscore, "/paint"):
+        client = probe.ask("client", "/paint", "setbool")
+        for _ in range(5):
+            with ThreadPoolExecutor() as beside:
+                answer = beside.submit(probe.ask, "call", client, 0.5, 1)
+                time.sleep(0.3)
+                probe.process.send_signal(signal.SIGSTOP)
+                time.sleep(0.5)
+                probe.process.send_signal(signal.SIGCONT)
+                assert answer.result() == "! service '/paint' did not answer within 0.5 s"
 
 
 def test_call_times_out_while_the_master_hangs(roscore: RosCore) -> None:
