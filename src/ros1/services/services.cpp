@@ -165,14 +165,16 @@ WireBuffer Services::call(EndpointId client, WireBuffer request, double timeout)
         }
       },
       deadline);
-  const std::string late = "service '" + name + "' did not answer within " + seconds_text(timeout);
-  if (!finished && call->found) throw ServiceError(late);  // the thread has not come to report it
-  if (!finished) throw ServiceError("service '" + name + "' was not called: the ROS master does not answer");
-  if (!call->error) return std::move(call->response);
+  if (!finished && !call->found) {
+    throw ServiceError("service '" + name + "' was not called: the ROS master does not answer");
+  }
+  // A thread that has not finished has only not come to report it.
+  const std::exception_ptr error = finished ? call->error : std::make_exception_ptr(TimedSocket::TimedOut());
+  if (!error) return std::move(call->response);
   try {
-    std::rethrow_exception(call->error);
+    std::rethrow_exception(error);
   } catch (const TimedSocket::TimedOut&) {
-    throw ServiceError(late);
+    throw ServiceError("service '" + name + "' did not answer within " + seconds_text(timeout));
   }
 }
 
