@@ -2,17 +2,17 @@
 """Clients that send junk, never read, or are slow, on each kind of port: the others are served, the steps go on."""
 
 import statistics
-import sys
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 
 from every_port import PORTS, ListeningNode, reset
 from node_support import without_slowness
-from ros_support import DEADLINE, REPOSITORY, RosCore, start, stop
+from ros_support import DEADLINE, RosCore
+from rude_client import junk_sent_to
 
 SLOW = 200
 STEP = 0.05
@@ -36,26 +36,13 @@ def node(roscore: RosCore, tmp_path: Path) -> Iterator[ListeningNode]:
         assert len(without_slowness(running.output).splitlines()) < LINES, running.output
 
 
-@contextmanager
-def junk(port: int) -> Iterator[None]:
-    """Let a program send a megabyte after the other to a port."""
-    program = REPOSITORY / "tests" / "support" / "rude_client.py"
-    with (process := start([sys.executable, str(program), str(port)], {}, stdout=-1)):
-        try:
-            assert process.stdout
-            assert process.stdout.readline() == "begun\n"
-            yield
-        finally:
-            stop(process)
-
-
 def answer_times(node: ListeningNode, port: str, count: int) -> list[float]:
     return sorted(node.ask(port) for _ in range(count))
 
 
 @pytest.mark.parametrize("attacked", PORTS)
 def test_others_are_answered_during_junk(node: ListeningNode, attacked: str) -> None:
-    with junk(node.ports[attacked]):
+    with junk_sent_to(node.ports[attacked]):
         for port in PORTS:
             assert answer_times(node, port, 20)[-1] < DEADLINE
 
@@ -65,7 +52,7 @@ def test_others_are_answered_during_junk(node: ListeningNode, attacked: str) -> 
 def test_junk_delays_the_answers_to_others_at_most_twice(node: ListeningNode, attacked: str) -> None:
     count = 200
     before = {port: statistics.median(answer_times(node, port, count)) for port in PORTS}
-    with junk(node.ports[attacked]):
+    with junk_sent_to(node.ports[attacked]):
         for port in PORTS:
             assert statistics.median(answer_times(node, port, count)) < 2 * before[port] + STEP
 

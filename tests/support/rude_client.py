@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Sends junk to a TCP port until it is ended: python rude_client.py PORT. It prints a line when it has begun."""
 
-import contextlib
 import os
 import socket
 import struct
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+
+from ros_support import start, stop
 
 _MEGABYTE = 1_000_000
 _DEEP = 100_000
@@ -20,6 +23,18 @@ def _http(body: bytes) -> bytes:
 def _zmtp(body: bytes) -> bytes:
     """Return a connection of a REQ socket that sends one request."""
     return _ZMTP_GREETING + _ZMTP_READY + b"\x01\x00\x02" + struct.pack(">Q", len(body)) + body
+
+
+@contextmanager
+def junk_sent_to(port: int) -> Iterator[None]:
+    """Let a program send junk to a port while the block runs."""
+    with (process := start([sys.executable, __file__, str(port)], dict(os.environ), stdout=-1)):
+        try:
+            assert process.stdout
+            assert process.stdout.readline() == "begun\n"
+            yield
+        finally:
+            stop(process)
 
 
 def junk() -> list[bytes]:
@@ -45,9 +60,10 @@ def main() -> None:
     print("begun", flush=True)
     while True:
         for data in kinds:
-            with contextlib.suppress(OSError), socket.create_connection(("127.0.0.1", port), timeout=1.0) as connection:
+            with suppress(OSError), socket.create_connection(("127.0.0.1", port), timeout=1.0) as connection:
                 connection.sendall(data)
 
 
 if __name__ == "__main__":
-    main()
+    with suppress(KeyboardInterrupt):
+        main()

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from page_client import Server, is_closed, page_client
+from rude_client import junk_sent_to
 from ros_support import wait_until
 
 
@@ -57,6 +58,19 @@ def test_a_connection_with_a_request_is_kept_before_those_without(server: Server
         ask()
 
 
+def test_requests_are_answered_while_others_send_junk(server: Server) -> None:
+    def ask() -> bytes:
+        with server.connect() as connection:  # less work than an HTTPConnection: more of them at once
+            connection.sendall(f"GET /icon.svg HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\n\r\n".encode())
+            return connection.recv(15)
+
+    with ExitStack() as ends:
+        for _ in range(4):
+            ends.enter_context(junk_sent_to(server.port))
+        answers = {ask() for _ in range(2000)}
+    assert answers == {b"HTTP/1.1 200 OK"}
+
+
 def test_a_thousand_connections_leave_room_for_pages(server: Server) -> None:
     before = server.descriptors()
 
@@ -74,7 +88,7 @@ def test_a_thousand_connections_leave_room_for_pages(server: Server) -> None:
                         assert await page.call("server.recording") == {"runs": False, "file": ""}
                 return most
 
-    at_once = 2 * 64  # a batch that is accepted beside one that is being closed
+    at_once = 4 * 8  # those that are accepted in a turn of the server's loop, and those that are being closed
     two_pages = 2 * 17
     assert asyncio.run(crowd()) - before < 120 + at_once + two_pages
     assert len(server.output.splitlines()) < 5

@@ -24,7 +24,7 @@ from bubblesim.running.places import page_folder
 from bubblesim.web.access import Access
 from bubblesim.web.address_file import write_address
 from bubblesim.web.bag_recording import recording
-from bubblesim.web.connections import MOST_WAITING, Connection, Connections
+from bubblesim.web.connections import ACCEPTED_AT_ONCE, MOST_WAITING, Connection, Connections
 from bubblesim.web.hub import Hub
 from bubblesim.web.log_limit import limit_log
 from bubblesim.web.page import serve_page
@@ -200,8 +200,13 @@ async def _listen(
     loop = asyncio.get_running_loop()
     for port in ports:
         try:  # not after a look at which one is free: other servers look at the same time
-            return await loop.create_server(make_protocol, address, port, backlog=MOST_WAITING), port
+            server = await loop.create_server(make_protocol, address, port, backlog=ACCEPTED_AT_ONCE)
         except OSError as error:
             if error.errno != errno.EADDRINUSE or port == ports[-1]:
                 raise
+        else:
+            for each in server.sockets:
+                with each.dup() as listening:
+                    listening.listen(MOST_WAITING)  # asyncio has one number for this and for what it accepts at once
+            return server, port
     raise ValueError("no ports are given")
