@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 from page_client import Server, is_closed, page_client
-from rude_client import junk_sent_to
 from ros_support import wait_until
+from rude_client import junk_sent_to
 
 
 @pytest.fixture

@@ -12,8 +12,8 @@ import asyncio
 from typing import cast
 
 MOST_WAITING = 64  # connections that are not accepted yet
-_MOST_PAGES = 40  # with the token; each has up to 17 descriptors
 ACCEPTED_AT_ONCE = 8  # so that requests which are there already are read before _MOST_OTHERS more are accepted
+_MOST_PAGES = 40  # with the token; each has up to 17 descriptors
 _MOST_OTHERS = 120  # and for a moment some more: those of a turn of the loop are accepted before one is closed
 _MOST_BYTES = 64 * 1024  # from a connection without the token
 _FIRST_REQUEST = 5.0  # s until the headers of a request are there
