@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Limits for reading a mesh file. Intact files need a tenth of them.
+// Limits for reading a mesh file or an image. Intact files need a tenth of them.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@ namespace bubblesim {
 
 constexpr std::uint64_t kMegabyte = 1ULL << 20U;
 constexpr std::uint64_t kLargestMeshFile = 1024 * kMegabyte;
+constexpr std::uint64_t kLargestPictureFile = 1024 * kMegabyte;
 
 /// Memory in bytes, for a file of `size` bytes.
 constexpr std::uint64_t mesh_memory(std::uint64_t size) { return 256 * kMegabyte + 20 * size; }

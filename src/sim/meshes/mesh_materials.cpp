@@ -44,7 +44,7 @@ fs::path find_texture(const std::string& uri, const fs::path& mesh_file) {
 
 std::shared_ptr<const Texture> embedded_texture(const FileMaterial& material) {
   const auto [width, height] = std::pair(material.numbers.texture_width, material.numbers.texture_height);
-  if (width == 0) return decode_texture(material.texture.data(), material.texture.size());
+  if (width == 0) return decode_texture(material.texture);
   const bool whole = width > 0 && height > 0 && material.texture.size() == 3ULL * width * height;
   return whole ? std::make_shared<const Texture>(Texture{width, height, material.texture}) : nullptr;
 }

@@ -2,25 +2,19 @@
 // Reads mesh files in another process, which may crash or be killed at its limits.
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
 
 #include "meshes/mesh_content.hpp"
+#include "meshes/reader_process.hpp"
 
 namespace bubblesim {
 
 /// One process for all files of a load. It is started with the first file and again after a file that made it crash.
 class MeshReader {
  public:
-  MeshReader();
-  ~MeshReader();
-  MeshReader(const MeshReader&) = delete;
-  MeshReader& operator=(const MeshReader&) = delete;
-
   /// Identifies the content of a file.
   struct Content {
     std::uint64_t size = 0;  ///< bytes
@@ -33,8 +27,7 @@ class MeshReader {
   MeshContent read(const MeshQuery& query);
 
  private:
-  class Process;
-  std::unique_ptr<Process> process_;
+  std::unique_ptr<ReaderProcess> process_;
   std::map<std::string, Content> contents_;
 };
 

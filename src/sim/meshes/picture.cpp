@@ -1,95 +1,106 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshes/picture.hpp"
 
-#include <stb_image.h>
-
 #include <array>
+#include <chrono>
 #include <cstdint>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "meshes/mesh_error.hpp"
+#include "meshes/mesh_limits.hpp"
+#include "meshes/reader_process.hpp"
+#include "meshes/reader_stream.hpp"
 
 namespace bubblesim {
 namespace {
 
-struct Free {
-  void operator()(void* pixels) const { stbi_image_free(pixels); }
-};
+namespace fs = std::filesystem;
 
-[[noreturn]] void fail() {
-  throw MeshError(std::string("cannot be read as an image (") + stbi_failure_reason() +
-                  "); supported formats: png, jpg, bmp, tga, gif");
+std::vector<std::uint8_t> bytes_of(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) {
+    throw MeshError(fs::exists(file, error) ? "is not a regular file" : "does not exist");
+  }
+  const std::uint64_t size = fs::file_size(file, error);
+  if (error) throw MeshError("cannot be read (" + error.message() + ")");
+  if (size > kLargestPictureFile) {
+    throw MeshError("is " + std::to_string(size / kMegabyte) + " MB large; the maximum is " +
+                    std::to_string(kLargestPictureFile / kMegabyte) + " MB");
+  }
+  std::vector<std::uint8_t> bytes(size);
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
+    throw MeshError("cannot be read");
+  }
+  return bytes;
 }
 
-// An image file of a few bytes may declare any size.
-constexpr std::int64_t kMostPixels = 8192LL * 8192;
-
-void check_pixels(bool known, int width, int height) {
-  if (!known || std::int64_t{width} * height <= kMostPixels) return;  // unknown formats fail later, when they are read
-  throw MeshError("has " + std::to_string(width) + " x " + std::to_string(height) + " pixels; the maximum is " +
-                  std::to_string(kMostPixels));
+/// Reads a picture in a process of its own.
+PictureContent read_picture(const PictureQuery& query) {
+  ReaderProcess process("picture_reader");
+  const std::uint64_t seconds = mesh_seconds(query.bytes.size());
+  try {
+    ReaderStream stream(process.socket());
+    // The reader limits its own CPU time; this limit is for a reader that waits.
+    stream.set_deadline(ReaderStream::Clock::now() + std::chrono::seconds(30 + 4 * seconds));
+    each_value_of_query(query, [&stream](const auto& value) { stream.send(value); });
+    PictureContent content;
+    each_value_of_content(content, [&stream](auto& value) { stream.receive(value); });
+    if (!content.error.empty()) throw MeshError(content.error);
+    return content;
+  } catch (const StreamClosed&) {
+    throw MeshError("cannot be read as an image (" + process.reason_of_end(seconds) + "): the file is damaged");
+  } catch (const StreamTimeout&) {
+    throw MeshError("cannot be read as an image (its reader does not answer): the file is damaged");
+  }
 }
 
-void check_pixels(const std::filesystem::path& file) {
-  int width = 0;
-  int height = 0;
-  int channels = 0;
-  check_pixels(stbi_info(file.c_str(), &width, &height, &channels) != 0, width, height);
-}
-
-/// Takes ownership of the pixels.
-std::shared_ptr<const Texture> to_texture(stbi_uc* pixels, int width, int height) {
-  if (pixels == nullptr) fail();
-  const std::unique_ptr<stbi_uc, Free> owner(pixels);
-  const std::size_t bytes = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  return std::make_shared<const Texture>(Texture{width, height, {pixels, pixels + bytes}});
+/// Throws MeshError unless there are so many values of each pixel.
+void check_size(const PictureContent& content, std::size_t values, std::size_t found) {
+  const bool whole =
+      content.width > 0 && content.height > 0 &&
+      found == values * static_cast<std::size_t>(content.width) * static_cast<std::size_t>(content.height);
+  if (!whole) throw MeshError("cannot be read as an image (its reader answered with a part of it)");
 }
 
 }  // namespace
 
-Heights read_heights(const std::filesystem::path& file) {
-  check_pixels(file);
-  int width = 0;
-  int height = 0;
-  int channels = 0;
-  const std::unique_ptr<stbi_us, Free> pixels(stbi_load_16(file.c_str(), &width, &height, &channels, 1));
-  if (pixels == nullptr) fail();
-  Heights heights{static_cast<std::size_t>(width), static_cast<std::size_t>(height), {}};
-  heights.values.reserve(heights.width * heights.height);
-  for (std::size_t i = 0; i < heights.width * heights.height; ++i) {
-    heights.values.push_back(static_cast<float>(pixels.get()[i]) / std::numeric_limits<stbi_us>::max());
+Heights to_heights(const PictureContent& content) {
+  check_size(content, 1, content.heights.size());
+  Heights heights{static_cast<std::size_t>(content.width), static_cast<std::size_t>(content.height), {}};
+  heights.values.reserve(content.heights.size());
+  for (const std::uint16_t height : content.heights) {
+    heights.values.push_back(static_cast<float>(height) / std::numeric_limits<std::uint16_t>::max());
   }
   return heights;
 }
 
-std::shared_ptr<const Texture> read_texture(const std::filesystem::path& file) {
+std::shared_ptr<const Texture> to_texture(PictureContent content) {
+  check_size(content, 3, content.rgb.size());
+  return std::make_shared<const Texture>(Texture{content.width, content.height, std::move(content.rgb)});
+}
+
+Heights read_heights(const fs::path& file) { return to_heights(read_picture({PictureKind::kHeights, bytes_of(file)})); }
+
+std::shared_ptr<const Texture> read_texture(const fs::path& file) {
   static std::mutex mutex;
   static std::map<std::string, std::weak_ptr<const Texture>> known;
   const std::scoped_lock lock(mutex);
   std::weak_ptr<const Texture>& shared = known[file.string()];
   if (std::shared_ptr<const Texture> texture = shared.lock()) return texture;
-  check_pixels(file);
-  int width = 0;
-  int height = 0;
-  int channels = 0;
-  stbi_uc* const pixels = stbi_load(file.c_str(), &width, &height, &channels, 3);
-  std::shared_ptr<const Texture> texture = to_texture(pixels, width, height);
+  std::shared_ptr<const Texture> texture = decode_texture(bytes_of(file));
   shared = texture;
   return texture;
 }
 
-std::shared_ptr<const Texture> decode_texture(const unsigned char* bytes, std::size_t size) {
-  if (size > static_cast<std::size_t>(std::numeric_limits<int>::max())) throw MeshError("is too large for an image");
-  int width = 0;
-  int height = 0;
-  int channels = 0;
-  const bool known = stbi_info_from_memory(bytes, static_cast<int>(size), &width, &height, &channels) != 0;
-  check_pixels(known, width, height);
-  stbi_uc* const pixels = stbi_load_from_memory(bytes, static_cast<int>(size), &width, &height, &channels, 3);
-  return to_texture(pixels, width, height);
+std::shared_ptr<const Texture> decode_texture(std::vector<std::uint8_t> bytes) {
+  if (bytes.size() > kLargestPictureFile) throw MeshError("is too large for an image");
+  return to_texture(read_picture({PictureKind::kTexture, std::move(bytes)}));
 }
 
 Color mean_color(const Texture& texture) {

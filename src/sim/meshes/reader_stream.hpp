@@ -23,12 +23,12 @@ struct StreamTimeout : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-class MeshStream {
+class ReaderStream {
  public:
   using Clock = std::chrono::steady_clock;
 
   /// The caller keeps ownership of the socket.
-  explicit MeshStream(int socket) : socket_(socket) {}
+  explicit ReaderStream(int socket) : socket_(socket) {}
 
   /// Time limit for receiving; empty: none.
   void set_deadline(std::optional<Clock::time_point> deadline) { deadline_ = deadline; }

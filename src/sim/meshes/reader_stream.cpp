@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "meshes/mesh_stream.hpp"
+#include "meshes/reader_stream.hpp"
 
 #include <poll.h>
 #include <sys/socket.h>
@@ -9,7 +9,7 @@
 
 namespace bubblesim {
 
-void MeshStream::send_bytes(const void* bytes, std::size_t size) {
+void ReaderStream::send_bytes(const void* bytes, std::size_t size) {
   const char* next = static_cast<const char*>(bytes);
   while (size > 0) {
     const ssize_t sent = ::send(socket_, next, size, MSG_NOSIGNAL);
@@ -20,7 +20,7 @@ void MeshStream::send_bytes(const void* bytes, std::size_t size) {
   }
 }
 
-void MeshStream::receive_bytes(void* bytes, std::size_t size) {
+void ReaderStream::receive_bytes(void* bytes, std::size_t size) {
   char* next = static_cast<char*>(bytes);
   while (size > 0) {
     wait_for_input();
@@ -32,7 +32,7 @@ void MeshStream::receive_bytes(void* bytes, std::size_t size) {
   }
 }
 
-void MeshStream::wait_for_input() const {
+void ReaderStream::wait_for_input() const {
   while (deadline_) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(*deadline_ - Clock::now()).count();
     pollfd waiting{socket_, POLLIN, 0};
