@@ -1,46 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The answer of the program that reads mesh files, which a file may have made crash or answer anything.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "meshes/finish_mesh.hpp"
 #include "meshes/mesh_error.hpp"
+#include "taken.hpp"
 #include "targets.hpp"
 
 namespace bubblesim::fuzz {
-namespace {
-
-/// Takes values off the front of the data, zeros after its end.
-class Taken {
- public:
-  explicit Taken(std::string_view data) : data_(data) {}
-
-  template <class Value>
-  Value value() {
-    Value taken{};
-    const std::size_t size = std::min(sizeof taken, data_.size());
-    if (size > 0) std::memcpy(&taken, data_.data(), size);
-    data_.remove_prefix(size);
-    return taken;
-  }
-  template <class Value>
-  std::vector<Value> values() {
-    std::vector<Value> taken(value<std::uint8_t>());
-    for (Value& each : taken) each = value<Value>();
-    return taken;
-  }
-
- private:
-  std::string_view data_;
-};
-
-}  // namespace
 
 void read_mesh(std::string_view data) {
   Taken taken(data);

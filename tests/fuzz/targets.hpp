@@ -22,7 +22,7 @@ void read_cbor(std::string_view data);      ///< a request of a remote client
 void read_material(std::string_view data);  ///< an OGRE material script
 void read_mesh(std::string_view data);      ///< the arrays of a mesh, see mesh.cpp
 void read_message(std::string_view data);   ///< two bytes that choose a type, then a message in its layout
-void read_picture(std::string_view data);   ///< png, jpg, bmp, tga, gif, psd, pnm
+void read_picture(std::string_view data);   ///< the pixels of an image, see picture.cpp
 void read_scene(std::string_view data);     ///< SDFormat or URDF
 void read_snapshot(std::string_view data);  ///< changes of a saved state, see snapshot.cpp
 void read_ttt(std::string_view data);       ///< a file of CoppeliaSim
