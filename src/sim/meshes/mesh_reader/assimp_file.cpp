@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "meshes/reader/assimp_file.hpp"
+#include "meshes/mesh_reader/assimp_file.hpp"
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/MemoryIOWrapper.h>
@@ -17,9 +17,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "meshes/reader/collada_text.hpp"
-#include "meshes/reader/file_materials.hpp"
-#include "meshes/reader/gather.hpp"
+#include "meshes/mesh_reader/collada_text.hpp"
+#include "meshes/mesh_reader/file_materials.hpp"
+#include "meshes/mesh_reader/gather.hpp"
 
 namespace bubblesim {
 namespace {

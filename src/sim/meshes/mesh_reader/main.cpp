@@ -9,7 +9,7 @@
 
 #include "meshes/mesh_content.hpp"
 #include "meshes/mesh_limits.hpp"
-#include "meshes/reader/assimp_file.hpp"
+#include "meshes/mesh_reader/assimp_file.hpp"
 #include "meshes/reader_program.hpp"
 #include "meshes/reader_stream.hpp"
 

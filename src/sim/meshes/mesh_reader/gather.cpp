@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "meshes/reader/gather.hpp"
+#include "meshes/mesh_reader/gather.hpp"
 
 #include <assimp/scene.h>
 

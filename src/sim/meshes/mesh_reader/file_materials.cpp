@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "meshes/reader/file_materials.hpp"
+#include "meshes/mesh_reader/file_materials.hpp"
 
 #include <assimp/material.h>
 #include <assimp/scene.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "meshes/reader/collada_text.hpp"
+#include "meshes/mesh_reader/collada_text.hpp"
 
 #include <algorithm>
 
