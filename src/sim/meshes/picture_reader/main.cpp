@@ -5,8 +5,8 @@
 #include <unistd.h>
 
 #include <cstdint>
-#include <limits>
 #include <string>
+#include <utility>
 
 #include "meshes/mesh_limits.hpp"
 #include "meshes/picture_content.hpp"
